@@ -1,0 +1,73 @@
+# Everything one needs: `make help` lists it.
+
+SHELL := /bin/bash
+VENV := .venv
+BIN := $(VENV)/bin
+# The first Python of at least 3.11; `make PYTHON=… install` takes another.
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
+CORES ?= all
+SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default
+INSTALLED := $(VENV)/.installed
+
+.PHONY: help
+help: ## Say what there is to make
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+.PHONY: install
+install: $(INSTALLED) ## Set up the virtual environment .venv from the lock file
+
+$(INSTALLED): requirements.lock pyproject.toml
+	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
+	$(PYTHON) -m venv --clear $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.PHONY: reproduce
+reproduce: install ## Run the whole study: figures, tables, recordings, report
+	@$(SNAKEMAKE) --configfile config/config.yaml
+	@echo "The report is at results/report/index.html"
+
+.PHONY: smoke
+smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
+	@$(SNAKEMAKE) --configfile config/smoke.yaml
+	@echo "The report is at results/smoke/report/index.html"
+
+.PHONY: test
+test: install ## Run all tests
+	@$(BIN)/python -m pytest --numprocesses auto
+
+.PHONY: lint
+lint: install ## Check style and formatting
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/snakefmt --check Snakefile workflow
+
+.PHONY: types
+types: install ## Check types
+	@$(BIN)/mypy
+
+.PHONY: format
+format: install ## Format the code
+	@$(BIN)/ruff check --fix --quiet . || true
+	@$(BIN)/ruff format .
+	@$(BIN)/snakefmt --quiet Snakefile workflow
+
+.PHONY: schema
+schema: install ## Renew what is generated from the types: schema and key reference
+	@$(BIN)/upswing schema > config/schema.json
+	@$(BIN)/upswing keys > config/README.md
+
+.PHONY: lock
+lock: ## Renew requirements.lock from pyproject.toml
+	$(PYTHON) -m venv --clear .lock-venv
+	.lock-venv/bin/python -m pip install --quiet '.[dev]'
+	{ echo "# Exact versions of everything that upswing uses. Renew with: make lock"; \
+	  .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | sed 's/+cpu$$//'; } > requirements.lock
+	rm -rf .lock-venv build
+
+.PHONY: clean
+clean: ## Remove results and what Snakemake remembers of them
+	rm -rf results/* .snakemake
+	git checkout --quiet -- results

@@ -1,0 +1,44 @@
+# The study from configuration to report. Each rule calls one verb of the command `upswing`.
+
+from snakemake.exceptions import WorkflowError
+
+from upswing.config import from_snakemake
+from upswing.figures import FIGURES
+from upswing.fingerprint import fingerprint
+from upswing.matrix import RUN_FILES, Matrix, training_code
+from upswing.problems import BadInput
+from upswing.study import canonical
+
+if not workflow.configfiles:
+
+    configfile: "config/config.yaml"
+
+
+try:
+    STUDY = from_snakemake(workflow.configfiles, config)
+except BadInput as error:
+    raise WorkflowError(str(error)) from None
+
+RESULTS = STUDY.results
+MATRIX = Matrix(STUDY)
+# A figure can be drawn when all cells that it shows are in the study.
+DRAWABLE = [number for number, figure in FIGURES.items() if set(figure.cells) <= set(MATRIX.cells)]
+
+
+wildcard_constraints:
+    task="[a-z0-9-]+",
+    architecture="[a-z0-9-]+",
+    alpha="[0-9.]+|none",
+    number="[0-9]{2}",
+
+
+rule all:
+    input:
+        f"{RESULTS}/report/index.html",
+        expand(f"{RESULTS}/runs/{{run}}.{{kind}}", run=MATRIX.runs, kind=RUN_FILES),
+
+
+include: "workflow/rules/train.smk"
+include: "workflow/rules/tables.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/report.smk"

@@ -1,0 +1,133 @@
+"""The verbs: each calls one typed function, so that every job can be repeated by hand."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from upswing import __version__
+from upswing.problems import BadInput
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed."""
+    options = _parser().parse_args(arguments)
+    try:
+        options.verb(options)
+    except BadInput as error:
+        print(f"upswing: {error}", file=sys.stderr)
+        return 2
+    except (OSError, RuntimeError) as error:
+        print(f"upswing: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="upswing",
+        description="Reproduce the thesis Reinforcement Learning in Motor Control.",
+        epilog="`make help` lists what runs the whole study.",
+    )
+    parser.add_argument("--version", action="version", version=f"upswing {__version__}")
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
+
+    def verb(name: str, function: object, summary: str) -> argparse.ArgumentParser:
+        added = verbs.add_parser(name, help=summary, description=summary)
+        added.set_defaults(verb=function)
+        return added
+
+    results = argparse.ArgumentParser(add_help=False)
+    results.add_argument(
+        "results", nargs="?", type=Path, default=Path("results"), help="folder (default: results)"
+    )
+
+    added = verb("train", _train, "Learn the runs of specifications and store them.")
+    added.add_argument("spec", nargs="+", help="a specification in JSON, as a run's log shows it")
+    added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
+
+    verbs_of_results = (
+        ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
+        ("report", _report, "Write report/index.html."),
+    )
+    for name, function, summary in verbs_of_results:
+        added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
+        added.set_defaults(verb=function)
+        if name == "report":
+            added.add_argument(
+                "--templates", type=Path, default=Path("report"), help="folder of the templates"
+            )
+
+    summary = "Draw a figure of the thesis from the results, as SVG and PNG."
+    added = verbs.add_parser("figure", help=summary, description=summary)
+    added.add_argument("number", type=int, help="5 to 11")
+    added.add_argument("results", nargs="?", type=Path, default=Path("results"))
+    added.set_defaults(verb=_figure)
+
+    added = verb("study", _study, "Keep a study's configuration beside its results.")
+    added.add_argument("study", help="the study in JSON")
+    added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
+
+    added = verb("check", _check, "Check a configuration and say what it comes to.")
+    added.add_argument("config", nargs="?", type=Path, default=Path("config/config.yaml"))
+
+    verb("schema", _schema, "Print the JSON schema of a configuration.")
+    return parser
+
+
+def _train(options: argparse.Namespace) -> None:
+    from upswing.spec import parse
+
+    specs = [parse(text) for text in options.spec]  # all of them, before anything is written
+    from upswing.train import train
+
+    for spec in specs:
+        train(spec, options.results)
+
+
+def _tables(options: argparse.Namespace) -> None:
+    from upswing.matrix import Matrix
+    from upswing.study import read_study
+    from upswing.tables import write_tables
+
+    write_tables(options.results, Matrix(read_study(options.results)))
+
+
+def _figure(options: argparse.Namespace) -> None:
+    from upswing.figures import draw
+
+    draw(options.number, options.results)
+
+
+def _report(options: argparse.Namespace) -> None:
+    from upswing.report import write_report
+
+    write_report(options.results, options.templates)
+
+
+def _study(options: argparse.Namespace) -> None:
+    from upswing.study import write_study
+
+    write_study(options.study, options.results)
+
+
+def _check(options: argparse.Namespace) -> None:
+    from upswing.config import load
+    from upswing.matrix import Matrix
+
+    matrix = Matrix(load(options.config))
+    steps = sum(cell.task.steps * len(cell.seeds) for cell in matrix.cells.values())
+    for cell in matrix.cells.values():
+        print(f"{cell.cell:45} {len(cell.seeds):4} runs of {cell.task.steps:>9,} steps")
+    print(f"{len(matrix.cells)} cells, {len(list(matrix.runs))} runs, {steps:,} steps")
+
+
+def _schema(options: argparse.Namespace) -> None:
+    from upswing.config import schema
+
+    print(json.dumps(schema(), indent=2, ensure_ascii=False))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,94 @@
+"""How the inner loops are compiled, and how one listing serves several types.
+
+Every function under ``@compiled`` also runs as plain Python with ``NUMBA_DISABLE_JIT=1``: that is
+how it is debugged, and a test holds the two against each other.
+"""
+
+import os
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Any, Generic, ParamSpec, TypeVar
+
+import numba
+from numba.extending import overload
+from platformdirs import user_cache_path
+
+from upswing.fingerprint import fingerprint
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
+"""Numpy's rules for division by zero; and no counting of references to arrays, which took most of a
+step (an atomic operation for every array of a learner at every call). So compiled code makes no
+arrays: it changes those it is given, which its Python caller holds."""
+
+
+def compiled_modules() -> list[str]:
+    """Where compiled code starts from: the loop, the measures, and every learner there is."""
+    learners = sorted((Path(__file__).parent / "learners").glob("[a-z]*.py"))
+    return ["upswing.loop", "upswing.measures", *(f"upswing.learners.{path.stem}" for path in learners)]
+
+
+def _choose_cache_directory() -> None:
+    """Key numba's cache by what the compiled code is.
+
+    Numba looks only at the file that holds the outermost function: after an edit in ``pendulum.py``
+    a cached loop would go on with the old pendulum.
+    """
+    if os.environ.get("NUMBA_CACHE_DIR") or numba.config.DISABLE_JIT:
+        return
+    key = fingerprint(*compiled_modules(), packages=("numba", "numpy"))
+    directory = user_cache_path("upswing") / "compiled" / key
+    if _writable(directory):
+        numba.config.CACHE_DIR = str(directory)
+
+
+def _writable(directory: Path) -> bool:
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError:  # no home directory, or a read-only one: numba then looks for a place itself
+        return False
+    return os.access(directory, os.W_OK)
+
+
+_choose_cache_directory()
+
+
+def compiled(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile ``function`` to machine code, kept on disk between processes.
+
+    Strict IEEE arithmetic: no fast-math.
+    """
+    return numba.njit(cache=True, **OPTIONS)(function)  # type: ignore[no-any-return]
+
+
+class ByType(Generic[P, R]):
+    """A function whose body is chosen by the class of its first argument.
+
+    Compiled code chooses while compiling, so that it costs nothing; plain Python looks the class up.
+    """
+
+    def __init__(self, declaration: Callable[P, R]) -> None:
+        self.bodies: dict[type, Callable[..., R]] = {}
+        bodies = self.bodies
+
+        @wraps(declaration)
+        def call(first: Any, *rest: Any) -> R:
+            return bodies[type(first)](first, *rest)
+
+        def choose(*types: Any) -> Callable[..., R] | None:
+            return bodies.get(getattr(types[0], "instance_class", type(None)))
+
+        overload(call, strict=False, jit_options=OPTIONS)(choose)
+        self.call = call
+
+    def register(self, kind: type) -> Callable[[Callable[..., R]], Callable[..., R]]:
+        """Make the decorated function the body for first arguments of class ``kind``."""
+
+        def remember(body: Callable[..., R]) -> Callable[..., R]:
+            self.bodies[kind] = body
+            return body
+
+        return remember

@@ -1,0 +1,271 @@
+"""What the user wrote: the study as a typed value. Unknown keys are refused, all problems reported at once."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, TypeVar
+
+import yaml
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+
+from upswing.problems import BadInput, explained, near, problem
+from upswing.readings import Readings
+
+T = TypeVar("T")
+
+LARGEST_SEED = 2**32 - 1
+LONGEST_RUN = 100_000_000
+
+
+def _named(name: str) -> str:
+    if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", name) or len(name) > 60:
+        raise ValueError("a name has small letters, digits and single hyphens, a letter first")
+    return name
+
+
+def _no_value_twice(values: tuple[T, ...]) -> tuple[T, ...]:
+    twice = next((value for i, value in enumerate(values) if value in values[:i]), None)
+    if twice is not None:
+        raise ValueError(f"{twice} stands there twice")
+    return values
+
+
+def listed(value: Any) -> Any:
+    """Lists become tuples before strict validation, which takes no list for a tuple."""
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _counted(value: Any) -> Any:
+    if isinstance(value, int) and not isinstance(value, bool):
+        if value < 1:
+            raise ValueError("write how many seeds there are, 1 or more, or list them")
+        if value > 100_000:
+            raise ValueError("that many seeds cannot be meant")
+        return tuple(range(value))
+    return listed(value)
+
+
+once = AfterValidator(_no_value_twice)
+"""A list in which nothing stands twice."""
+
+Name = Annotated[str, AfterValidator(_named)]
+Alpha = Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)]
+Steps = Annotated[int, Field(ge=1, le=LONGEST_RUN)]
+Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+Seed = Annotated[int, Field(ge=0, le=LARGEST_SEED)]
+Seeds = Annotated[
+    tuple[Seed, ...],
+    Field(min_length=1),
+    BeforeValidator(_counted),
+    once,
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "integer", "minimum": 1},
+                {
+                    "type": "array",
+                    "items": {"type": "integer", "minimum": 0, "maximum": LARGEST_SEED},
+                    "minItems": 1,
+                    "uniqueItems": True,
+                },
+            ]
+        }
+    ),
+]
+
+
+class Strict(BaseModel):
+    """A frozen value without unknown keys and without conversions."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class Task(Strict):
+    """A task of §4.3 and how long a run of it is."""
+
+    kind: Literal["balancing", "full-control"] = Field(
+        description="balancing: reset beyond 90°; full-control: any start, never reset."
+    )
+    steps: Steps = Field(description="Steps of 5 ms in one run.")
+
+
+class Architecture(Strict):
+    """What learns, and whether one learner or two modules share the state space (§4.4–4.6)."""
+
+    learner: Literal["table", "networks", "control"] = Field(
+        description="What holds Q; a file in src/upswing/learners."
+    )
+    hidden: Annotated[
+        tuple[Annotated[int, Field(ge=1, le=1000)], ...],
+        BeforeValidator(listed),
+        Field(max_length=2),
+    ] = Field(default=(), description="Sizes of a network's hidden layers, input side first.")
+    behaviour: Literal["idle", "random"] | None = Field(
+        default=None, description="What a control does: always 0, or any action."
+    )
+    modular: bool = Field(
+        default=False, description="One learner above the horizontal and one below (§4.6.3)."
+    )
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if (self.learner == "networks") != bool(self.hidden):
+            raise ValueError("`hidden` (one or two sizes) goes with `learner: networks`, always")
+        if (self.learner == "control") != (self.behaviour is not None):
+            raise ValueError("`behaviour` (idle or random) goes with `learner: control`, always")
+        if self.learner == "control" and self.modular:
+            raise ValueError("a control has nothing to divide into modules")
+        return self
+
+
+class Experiment(Strict):
+    """Cells of the matrix: every combination of the named tasks, architectures and step sizes."""
+
+    tasks: Annotated[tuple[str, ...], BeforeValidator(listed), once] = Field(
+        min_length=1, description="Names of tasks."
+    )
+    architectures: Annotated[
+        tuple[str, ...], BeforeValidator(listed), once
+    ] = Field(min_length=1, description="Names of architectures.")
+    alphas: Annotated[tuple[Alpha, ...], BeforeValidator(listed), once] = Field(
+        default=(), description="Step sizes α in (0, 1]; none for controls."
+    )
+
+
+class Study(Strict):
+    """A study: everything `make reproduce` computes."""
+
+    results: str = Field(default="results", min_length=1, description="Folder of the results.")
+    seeds: Seeds = Field(description="How many seeds a cell has (0, 1, …), or a list of them.")
+    seeds_per_job: Annotated[int, Field(ge=1, le=1000)] = Field(
+        default=15, description="Runs that share one job; more seeds then only add jobs."
+    )
+    epsilon: Share = Field(default=0.01, description="Share ε of random actions (§4.4).")
+    discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)] = Field(
+        default=0.7, description="Discount γ (§4.5.1)."
+    )
+    tasks: dict[Name, Task] = Field(min_length=1, description="Tasks by name.")
+    architectures: dict[Name, Architecture] = Field(
+        min_length=1, description="Architectures by name."
+    )
+    experiments: Annotated[tuple[Experiment, ...], BeforeValidator(listed)] = Field(
+        min_length=1, description="The cells of the matrix."
+    )
+    readings: Readings = Field(
+        default_factory=Readings, description="What the thesis leaves open (R1–R15)."
+    )
+
+
+def load(path: Path) -> Study:
+    """The study written in a YAML file; ``BadInput`` with all its problems otherwise."""
+    return validated({str(path): read_yaml(path)})
+
+
+def from_snakemake(files: Sequence[str | Path], merged: Mapping[str, Any]) -> Study:
+    """The study of a Snakemake run: its configuration files, and what ``--config`` laid over them."""
+    contents = {str(path): read_yaml(Path(path)) for path in files}
+    overlaid = {
+        key: value
+        for key, value in merged.items()
+        if not any(content.get(key) == value for content in contents.values())
+    }
+    return validated({**contents, "--config": overlaid} if overlaid else contents)
+
+
+def validated(contents: Mapping[str, Mapping[str, Any]]) -> Study:
+    """The study written in several sources, each replacing whole keys of those before it."""
+    data = {key: value for content in contents.values() for key, value in content.items()}
+    origin = {key: source for source, content in contents.items() for key in content}
+
+    def source_of(key: str) -> str:
+        return origin.get(key, " + ".join(contents))
+
+    try:
+        study = Study.model_validate(data)
+    except ValidationError as error:
+        raise BadInput(explained(Study, error, source_of)) from None
+    if problems := list(_contradictions(study, source_of("experiments"))):
+        raise BadInput(problems)
+    return study
+
+
+def _contradictions(study: Study, source: str) -> Iterator[str]:
+    """What each experiment says that the rest of the study does not bear out."""
+    cells: dict[tuple[str, str, float | None], int] = {}
+    for number, experiment in enumerate(study.experiments):
+        place = f"experiments[{number}]"
+        for key, known in (("tasks", study.tasks), ("architectures", study.architectures)):
+            for name in getattr(experiment, key):
+                if name not in known:
+                    yield problem(source, f"{place}.{key}", name, f"unknown; {near(name, known)}")
+        for name in experiment.architectures:
+            architecture = study.architectures.get(name)
+            if architecture is None:
+                continue
+            if architecture.learner == "control" and experiment.alphas:
+                right = f"{name} does not learn and has no α; leave `alphas` out"
+                yield problem(source, f"{place}.alphas", experiment.alphas, right)
+            if architecture.learner != "control" and not experiment.alphas:
+                yield f"{source}: {place}.alphas: missing: {name} learns with an α in (0, 1]"
+        for task in experiment.tasks:
+            for name in experiment.architectures:
+                for alpha in experiment.alphas or (None,):
+                    earlier = cells.setdefault((task, name, alpha), number)
+                    if earlier != number:
+                        right = f"duplicate cell: experiments[{earlier}] has it already"
+                        yield problem(source, place, f"{task}/{name}/alpha-{alpha}", right)
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """YAML that notices what it is told twice."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        """A mapping; ``BadInput`` for a key that stands there twice."""
+        seen: set[Any] = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)  # type: ignore[no-untyped-call]
+            line = key_node.start_mark.line + 1
+            if not isinstance(key, str):
+                raise BadInput([f"{self.name}: line {line}: {key!r}: a key must be text"])
+            if key in seen:
+                raise BadInput([f"{self.name}: line {line}: {key}: duplicate key; keep one"])
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(path: Path) -> dict[str, Any]:
+    """The mapping in a YAML file; ``BadInput`` if there is none, or a key stands there twice."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise BadInput([f"{path}: cannot be read: {error.strerror}"]) from None
+    except UnicodeDecodeError:
+        raise BadInput([f"{path}: is not text in UTF-8"]) from None
+    try:
+        loader = _StrictLoader(text)
+        loader.name = str(path)
+        content = loader.get_single_data()
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f" line {mark.line + 1}:" if mark else ""
+        reason = getattr(error, "problem", None) or str(error)
+        raise BadInput([f"{path}:{place} is not YAML: {reason}"]) from None
+    except RecursionError:
+        raise BadInput([f"{path}: is nested too deeply"]) from None
+    if not isinstance(content, dict):
+        raise BadInput([f"{path}: must hold keys and values at its top level"])
+    return content
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a study, for editors; ``config/schema.json`` is this."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **Study.model_json_schema()}

@@ -1,0 +1,106 @@
+"""Reading what a figure shows: the runs of a cell, their windows, and the median run."""
+
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from upswing.problems import BadInput
+from upswing.spec import cell_id, parse
+from upswing.tables import RUNS
+
+Real = NDArray[np.float64]
+
+ORDER_OF_RUNS = {
+    "balancing": ("falls", "falls_last_fifth", "seed"),
+    "full-control": ("upright_share", "mean_reward", "seed"),
+}
+"""By what the runs of a task are ordered to find the median one; later names break ties."""
+
+
+class OneRun(NamedTuple):
+    """A single run of a cell."""
+
+    id: str
+    kind: str  # of its task: "balancing" or "full-control"
+    seed: int
+    trajectory: pd.DataFrame  # stored steps: whole at the start and end, thinned between
+    windows: pd.DataFrame  # the whole run in windows
+
+
+class Crowd(NamedTuple):
+    """All runs of a cell, by window; arrays of shape (runs, windows)."""
+
+    kind: str  # of the task: "balancing" or "full-control"
+    seeds: list[int]
+    last_step: Real  # after which step a window ends: (windows,)
+    falls: Real
+    upright_share: Real
+
+    @property
+    def falls_so_far(self) -> Real:
+        """Falls since the beginning, shape (runs, windows)."""
+        return np.cumsum(self.falls, axis=1)
+
+
+class Results:
+    """A folder of results, read for drawing."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    @cached_property
+    def runs(self) -> pd.DataFrame:
+        """The table of runs, with a column ``cell``."""
+        path = self.folder / RUNS
+        if not path.exists():
+            raise BadInput([f"{path}: missing; `upswing tables {self.folder}` makes it"])
+        frame = pd.read_parquet(path)
+        alphas = [None if np.isnan(alpha) else alpha for alpha in frame["alpha"]]
+        cells = zip(frame["task"], frame["architecture"], alphas, strict=True)
+        return frame.assign(cell=[cell_id(*names) for names in cells])
+
+    def cell(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs."""
+        rows = self.runs[self.runs["cell"] == cell]
+        if rows.empty:
+            raise BadInput([f"{self.folder / RUNS}: has no runs of {cell}"])
+        return rows
+
+    def kind(self, cell: str) -> str:
+        """The kind of a cell's task: "balancing" or "full-control"."""
+        return parse(self.cell(cell)["spec"].iloc[0]).task.kind
+
+    def median_run(self, cell: str) -> OneRun:
+        """The run in the middle of a cell; of an even number, the lower of the two in the middle."""
+        ordered = self.cell(cell).sort_values(list(ORDER_OF_RUNS[self.kind(cell)]))
+        chosen = ordered.iloc[(len(ordered) - 1) // 2]
+        return OneRun(
+            chosen["run"],
+            self.kind(cell),
+            int(chosen["seed"]),
+            self._read(chosen["run"], "trajectory"),
+            self._read(chosen["run"], "windows"),
+        )
+
+    def crowd(self, cell: str) -> Crowd:
+        """All runs of a cell."""
+        rows = self.cell(cell)
+        windows = [self._read(run, "windows") for run in rows["run"]]
+        return Crowd(
+            kind=self.kind(cell),
+            seeds=[int(seed) for seed in rows["seed"]],
+            last_step=(windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float),
+            falls=np.stack([frame["falls"].to_numpy(float) for frame in windows]),
+            upright_share=np.stack([frame["upright_share"].to_numpy(float) for frame in windows]),
+        )
+
+    def _read(self, run: str, kind: str) -> pd.DataFrame:
+        path = self.folder / "runs" / f"{run}.{kind}.parquet"
+        if not path.exists():
+            raise BadInput([f"{path}: missing; run the study again to make it"])
+        return pq.read_table(path).to_pandas()

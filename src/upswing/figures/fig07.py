@@ -1,0 +1,35 @@
+"""Figure 7: networks balance."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
+
+if TYPE_CHECKING:
+    from upswing.figures.data import Results
+    from upswing.figures.panels import Drawing
+
+CELL = "balancing/networks-5/alpha-1"
+TABLE = "balancing/table/alpha-1"
+FIGURE = Declaration("Networks balance, α = 1", "§4.5.2", ("C4", "C5", "C6"), (CELL, TABLE))
+
+
+def draw(results: "Results") -> "Drawing":
+    """The angle over 5,000 and 50,000 steps, and the falls of all runs beside the table's."""
+    from upswing.figures import panels
+    from upswing.figures.style import grid_of_panels
+
+    run, crowd, table = results.median_run(CELL), results.crowd(CELL), results.crowd(TABLE)
+    figure, axes = grid_of_panels(2)
+    for row, steps in enumerate((5_000, None)):
+        panels.angle(axes[2 * row], run, CELL, steps)
+        panels.falls(
+            axes[2 * row + 1], [(CELL, "networks", crowd), (TABLE, "table", table)], steps
+        )
+    caption = (
+        "Q-learning with three networks of 80-5-1 neurons in the balancing task, α = 1: the first "
+        f"5,000 steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls "
+        f"of all {len(crowd.seeds)} runs; {CROWD}, the dashed line the median of the table with "
+        "α = 1 (figure 5)."
+    )
+    return panels.Drawing(figure, caption, [run.id])

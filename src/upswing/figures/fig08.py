@@ -1,0 +1,33 @@
+"""Figure 8: a Q table at full control."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+
+if TYPE_CHECKING:
+    from upswing.figures.data import Results
+    from upswing.figures.panels import Drawing
+
+CELL = "full-control/table/alpha-0.001"
+CONTROLS = {
+    "full-control/idle/alpha-none": "no control",
+    "full-control/random/alpha-none": "random",
+}
+FIGURE = Declaration(
+    "A Q table at full control, α = 0.001", "§4.6.1", ("C7", "C8", "C9"), (CELL, *CONTROLS)
+)
+
+
+def draw(results: "Results") -> "Drawing":
+    """The angle, and the upright share of all runs beside that of the controls."""
+    from upswing.figures import panels
+
+    figure, runs = panels.one_and_all(results, [(CELL, "table")], list(CONTROLS.items()))
+    caption = (
+        "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: the angle. "
+        f"{MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{len(results.cell(CELL))} runs; {CROWD}, dashed lines the medians of no control and of "
+        "random actions."
+    )
+    return panels.Drawing(figure, caption, [run.id for run in runs])

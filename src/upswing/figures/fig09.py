@@ -1,0 +1,31 @@
+"""Figure 9: networks at full control, in three sizes."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+
+if TYPE_CHECKING:
+    from upswing.figures.data import Results
+    from upswing.figures.panels import Drawing
+
+CELLS = {
+    "full-control/networks-30/alpha-1": "160-30-1",
+    "full-control/networks-20-5/alpha-1": "160-20-5-1",
+    "full-control/networks-5/alpha-1": "160-5-1",
+}
+FIGURE = Declaration("Networks at full control, α = 1", "§4.6.2", ("C10",), tuple(CELLS))
+
+
+def draw(results: "Results") -> "Drawing":
+    """The angle and the upright share for each size; the thesis shows the first."""
+    from upswing.figures import panels
+
+    figure, runs = panels.one_and_all(results, list(CELLS.items()))
+    count = len(results.cell(next(iter(CELLS))))
+    caption = (
+        "Q-learning with three networks at full control, α = 1, in the three sizes of the thesis, "
+        f"which shows the first. Left: the angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright "
+        f"steps of all {count} runs; {CROWD}."
+    )
+    return panels.Drawing(figure, caption, [run.id for run in runs])

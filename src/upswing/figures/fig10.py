@@ -1,0 +1,30 @@
+"""Figure 10: two Q tables at full control."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+
+if TYPE_CHECKING:
+    from upswing.figures.data import Results
+    from upswing.figures.panels import Drawing
+
+CELL = "full-control/modular-table/alpha-0.001"
+TABLE = "full-control/table/alpha-0.001"
+FIGURE = Declaration(
+    "Modular Q tables at full control, α = 0.001", "§4.6.3", ("C11",), (CELL, TABLE)
+)
+
+
+def draw(results: "Results") -> "Drawing":
+    """The angle, and the upright share of all runs beside that of one table."""
+    from upswing.figures import panels
+
+    figure, runs = panels.one_and_all(results, [(CELL, "two tables")], [(TABLE, "one table")])
+    caption = (
+        "Modular Q-learning with two tables of 4 × 20 tiles at full control, α = 0.001. Left: the "
+        f"angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{len(results.cell(CELL))} runs; {CROWD}, the dashed line the median of one table "
+        "(figure 8)."
+    )
+    return panels.Drawing(figure, caption, [run.id for run in runs])

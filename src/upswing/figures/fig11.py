@@ -1,0 +1,30 @@
+"""Figure 11: modular networks at full control."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+
+if TYPE_CHECKING:
+    from upswing.figures.data import Results
+    from upswing.figures.panels import Drawing
+
+CELL = "full-control/modular-networks-5/alpha-1"
+SINGLE = "full-control/networks-5/alpha-1"
+FIGURE = Declaration(
+    "Modular networks at full control, α = 1", "§4.6.3", ("C12", "C13", "C14", "C15"), (CELL, SINGLE)
+)
+
+
+def draw(results: "Results") -> "Drawing":
+    """The angle, and the upright share of all runs beside that of networks without modules."""
+    from upswing.figures import panels
+
+    figure, runs = panels.one_and_all(results, [(CELL, "modular")], [(SINGLE, "single")])
+    caption = (
+        "Modular Q-learning with two times three networks of 80-5-1 neurons at full control, "
+        f"α = 1. Left: the angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{len(results.cell(CELL))} runs; {CROWD}, the dashed line the median of networks of the "
+        "same size without modules (figure 9)."
+    )
+    return panels.Drawing(figure, caption, [run.id for run in runs])

@@ -1,0 +1,73 @@
+"""One visual language for all figures."""
+
+from pathlib import Path
+
+import matplotlib as mpl
+
+mpl.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  the backend comes first
+from matplotlib.axes import Axes  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+
+from upswing.store.files import written  # noqa: E402
+
+WIDTH = 7.2
+"""Width of a figure [inch]: a page's text, readable at half of it."""
+
+ROW_HEIGHT = 1.9
+
+# Okabe and Ito's palette, told apart by colour-blind readers too; one colour for an architecture.
+COLOURS = {
+    "table": "#0072B2",
+    "networks-5": "#D55E00",
+    "networks-20-5": "#CC79A7",
+    "networks-30": "#A65628",
+    "modular-table": "#56B4E9",
+    "modular-networks-5": "#009E73",
+    "idle": "#777777",
+    "random": "#333333",
+}
+GRID = "#DDDDDD"
+
+plt.rcParams.update(
+    {
+        "font.size": 8,
+        "axes.titlesize": 8,
+        "axes.titlelocation": "left",
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.edgecolor": "#888888",
+        "axes.labelcolor": "#333333",
+        "xtick.color": "#555555",
+        "ytick.color": "#555555",
+        "axes.grid": True,
+        "grid.color": GRID,
+        "grid.linewidth": 0.5,
+        "axes.axisbelow": True,
+        "figure.constrained_layout.use": True,
+        "svg.hashsalt": "upswing",  # the same picture is the same file
+        "path.simplify_threshold": 0.5,
+    }
+)
+
+
+def colour(cell: str) -> str:
+    """The colour of a cell: that of its architecture."""
+    return COLOURS.get(cell.split("/")[1], "#000000")
+
+
+def grid_of_panels(rows: int, widths: tuple[float, float] = (3, 2)) -> tuple[Figure, list[Axes]]:
+    """A figure of ``rows`` × 2 panels: one run on the left, the crowd on the right."""
+    figure, axes = plt.subplots(
+        rows, 2, figsize=(WIDTH, ROW_HEIGHT * rows), width_ratios=widths, squeeze=False
+    )
+    return figure, [panel for row in axes for panel in row]
+
+
+def save(figure: Figure, place: Path) -> None:
+    """Write a figure as ``place``.svg and ``place``.png."""
+    for ending, options in (("svg", {"metadata": {"Date": None}}), ("png", {"dpi": 200})):
+        with written(place.with_suffix(f".{ending}")) as beside:
+            figure.savefig(beside, format=ending, **options)
+    plt.close(figure)

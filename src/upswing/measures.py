@@ -1,0 +1,177 @@
+"""A trajectory → numbers, from every step of it, and not knowing how the run was made.
+
+The *last fifth* is the last 20 % of the steps; *upright* is |φ| ≤ 20°, *above the horizontal*
+|φ| ≤ 90°. A *fall* is a step from above the horizontal to below it: when balancing, a reset.
+"""
+
+from math import floor, pi, radians
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.compiled import compiled
+from upswing.loop import Trajectory
+from upswing.tasks import HORIZONTAL
+
+UPRIGHT = radians(20)
+"""Half the width of *upright* [rad]."""
+
+STABLE_STEPS = 5_000
+"""A window this long without a fall (balancing) or mostly upright (full control) is stable [steps]."""
+
+STABLE_SHARE = 0.9
+"""The share of a stable window of full control that is upright."""
+
+WINDOWS = 1_000
+"""Into how many windows a run is divided, at most."""
+
+Real = NDArray[np.float64]
+Count = NDArray[np.int64]
+
+
+class Measures(NamedTuple):
+    """What is measured of a run; shares and means over its last fifth."""
+
+    steps: int
+    falls: int
+    falls_last_fifth: int
+    upright_share: float
+    above_horizontal_share: float
+    mean_reward: float  # [rad²]
+    first_stable_step: int | None  # the start of the first stable window; None if there is none
+
+
+class Windows(NamedTuple):
+    """A run in windows of equal length (the last may be shorter); every array has shape (windows,)."""
+
+    first_step: Count
+    steps: Count
+    falls: Count
+    upright_share: Real
+    above_horizontal_share: Real
+    mean_reward: Real  # [rad²]
+    lowest_angle: Real  # [rad]
+    highest_angle: Real  # [rad]
+    highest_speed: Real  # |φ̇| [rad/s]
+    mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did
+
+
+def measure(trajectory: Trajectory, kind: str) -> Measures:
+    """What a run of a ``kind`` of task came to."""
+    steps = len(trajectory.angle)
+    last = last_fifth(steps)
+    falls, upright, above, reward = _sums(trajectory, last, steps)
+    first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, STABLE_SHARE)
+    length = steps - last
+    return Measures(
+        steps=steps,
+        falls=_sums(trajectory, 0, steps)[0],
+        falls_last_fifth=falls,
+        upright_share=upright / length,
+        above_horizontal_share=above / length,
+        mean_reward=reward / length,
+        first_stable_step=None if first_stable < 0 else first_stable,
+    )
+
+
+def last_fifth(steps: int) -> int:
+    """The first step of the last fifth."""
+    return steps - max(steps // 5, 1)
+
+
+def in_windows(trajectory: Trajectory) -> Windows:
+    """The run in at most ``WINDOWS`` windows."""
+    steps = len(trajectory.angle)
+    length = -(-steps // WINDOWS)
+    count = -(-steps // length)
+    first_step = np.arange(count, dtype=np.int64) * length
+    windows = Windows(
+        first_step,
+        np.minimum(first_step + length, steps) - first_step,
+        np.zeros(count, dtype=np.int64),
+        *(np.zeros(count) for _ in range(7)),
+    )
+    _fill(trajectory, windows)
+    return windows
+
+
+def as_columns(measures: Measures) -> dict[str, Any]:
+    """The measures by name."""
+    return measures._asdict()
+
+
+@compiled
+def physical(angle: float) -> float:
+    """φ [rad] within one turn, however often the pendulum went round."""
+    return angle - 2 * pi * floor((angle + pi) / (2 * pi))
+
+
+@compiled
+def falls_at(trajectory: Trajectory, t: int) -> bool:
+    """Whether step ``t`` leads from above the horizontal to below it."""
+    if trajectory.reset[t]:
+        return True
+    if t + 1 >= len(trajectory.angle):
+        return False
+    here, there = physical(trajectory.angle[t]), physical(trajectory.angle[t + 1])
+    return abs(here) <= HORIZONTAL < abs(there)
+
+
+@compiled
+def _sums(trajectory: Trajectory, first: int, last: int) -> tuple[int, int, int, float]:
+    """Falls, steps upright, steps above the horizontal and rewards from ``first`` up to ``last``."""
+    falls, upright, above, reward = 0, 0, 0, 0.0
+    for t in range(first, last):
+        tilt = abs(physical(trajectory.angle[t]))
+        falls += falls_at(trajectory, t)
+        upright += tilt <= UPRIGHT
+        above += tilt <= HORIZONTAL
+        reward += trajectory.reward[t]
+    return falls, upright, above, reward
+
+
+@compiled
+def _fill(trajectory: Trajectory, windows: Windows) -> None:
+    for w in range(len(windows.first_step)):
+        first = windows.first_step[w]
+        last = first + windows.steps[w]
+        falls, upright, above, reward = _sums(trajectory, first, last)
+        windows.falls[w] = falls
+        windows.upright_share[w] = upright / windows.steps[w]
+        windows.above_horizontal_share[w] = above / windows.steps[w]
+        windows.mean_reward[w] = reward / windows.steps[w]
+        lowest = highest = trajectory.angle[first]
+        speed, td_errors, learned = 0.0, 0.0, 0
+        for t in range(first, last):
+            lowest = min(lowest, trajectory.angle[t])
+            highest = max(highest, trajectory.angle[t])
+            speed = max(speed, abs(trajectory.angular_velocity[t]))
+            if trajectory.td_error[t] == trajectory.td_error[t]:  # not NaN
+                td_errors += abs(trajectory.td_error[t])
+                learned += 1
+        windows.lowest_angle[w] = lowest
+        windows.highest_angle[w] = highest
+        windows.highest_speed[w] = speed
+        windows.mean_td_error[w] = td_errors / learned
+
+
+@compiled
+def _first_stable(trajectory: Trajectory, balancing: bool, length: int, share: float) -> int:
+    """The first start of a stable window of ``length`` steps; −1 if there is none."""
+    good = 0  # of the window's steps: those without a fall, or those upright
+    needed = length if balancing else share * length
+    for t in range(len(trajectory.angle)):
+        good += _is_good(trajectory, balancing, t)
+        if t >= length:
+            good -= _is_good(trajectory, balancing, t - length)
+        if t >= length - 1 and good >= needed:
+            return t - length + 1
+    return -1
+
+
+@compiled
+def _is_good(trajectory: Trajectory, balancing: bool, t: int) -> bool:
+    if balancing:
+        return not falls_at(trajectory, t)
+    return abs(physical(trajectory.angle[t])) <= UPRIGHT

@@ -1,0 +1,32 @@
+"""Choosing an action: the ε-greedy policy of §3.1.2."""
+
+from upswing.compiled import compiled
+from upswing.learners import Q
+from upswing.tasks import ACTIONS
+
+
+@compiled
+def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
+    """The action for values ``q`` by one ``draw`` from [0, 1).
+
+    The one draw decides everything: below ε it says which random action, above it which of several
+    equal ones (R6). So every step of every run uses exactly one, and runs of one seed stay paired.
+    """
+    if draw < epsilon:
+        return min(int(draw / epsilon * ACTIONS), ACTIONS - 1)
+    best = 0
+    equals = 1
+    for action in range(1, ACTIONS):
+        if q[action] > q[best]:
+            best, equals = action, 1
+        elif q[action] == q[best]:
+            equals += 1
+    if equals == 1 or not random_ties:
+        return best
+    chosen = int((draw - epsilon) / (1.0 - epsilon) * equals)
+    for action in range(best, ACTIONS):
+        if q[action] == q[best]:
+            if chosen == 0:
+                return action
+            chosen -= 1
+    return best

@@ -1,0 +1,110 @@
+"""Bad input as one message: file, key, value, what would be right, and a near name for a typo."""
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from difflib import get_close_matches
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+Place = tuple[int | str, ...]
+
+
+class BadInput(ValueError):
+    """Input that cannot be used; its text says all that is wrong with it."""
+
+    def __init__(self, problems: Sequence[str]) -> None:
+        self.problems = list(problems)
+        count = "1 problem" if len(self.problems) == 1 else f"{len(self.problems)} problems"
+        super().__init__("\n".join([f"{count}:", *(f"  {problem}" for problem in self.problems)]))
+
+
+def explained(
+    model: type[BaseModel], error: ValidationError, source_of: Callable[[str], str]
+) -> list[str]:
+    """One line for each problem of ``error`` with input for ``model``.
+
+    ``source_of`` names the file that a top-level key is from ("" for none).
+    """
+    return [
+        _explain(source_of(str(details["loc"][0]) if details["loc"] else ""), model, details)
+        for details in error.errors()
+    ]
+
+
+def problem(source: str, key: str, value: Any, right: str) -> str:
+    """The line for one problem."""
+    return f"{source}: {key or '(top level)'}: {shown(value)}: {right}"
+
+
+def near(name: object, known: Iterable[str]) -> str:
+    """A hint at the known name that ``name`` may have meant, or what there is."""
+    names = sorted(known)
+    close = get_close_matches(str(name), names, n=1)
+    return f"did you mean {close[0]!r}?" if close else f"there are {', '.join(names)}"
+
+
+def shown(value: Any) -> str:
+    """A value as a reader would recognise it, at most 60 characters."""
+    try:
+        text = json.dumps(value, ensure_ascii=False)
+    except (TypeError, ValueError):
+        text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def key_of(place: Place) -> str:
+    """``("experiments", 0, "alphas")`` as ``experiments[0].alphas``."""
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.removeprefix(".")
+
+
+def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:
+    place, value = details["loc"], details["input"]
+    match details["type"]:
+        case "extra_forbidden":
+            known = _fields_at(model, place[:-1])
+            return f"{source}: {key_of(place)}: unknown key: {near(place[-1], known)}"
+        case "missing":
+            return f"{source}: {key_of(place)}: missing"
+        case "literal_error":
+            choices = details["ctx"]["expected"]
+            names = [name.strip("'") for name in choices.replace(" or ", ", ").split(", ")]
+            hint = get_close_matches(str(value), names, n=1)
+            suggestion = f"; did you mean {hint[0]!r}?" if hint else ""
+            return problem(source, key_of(place), value, f"must be {choices}{suggestion}")
+        case "float_type" | "int_type" if _is_number(value):
+            right = f"this is text, not a number; write {float(value):.12g}"
+            return problem(source, key_of(place), value, right)
+        case "value_error":
+            return problem(source, key_of(place), value, str(details["ctx"]["error"]))
+    return problem(source, key_of(place), value, _lower_first(details["msg"]))
+
+
+def _fields_at(model: type[BaseModel], place: Place) -> list[str]:
+    """The keys that ``model`` knows at ``place``."""
+    current: Any = model
+    for part in place:
+        if isinstance(current, type) and issubclass(current, BaseModel):
+            field = current.model_fields.get(str(part))
+            current = field.annotation if field else None
+        else:  # a list or a mapping: its elements are of the last type argument
+            current = next((a for a in reversed(get_args(current)) if a is not Ellipsis), None)
+    if isinstance(current, type) and issubclass(current, BaseModel):
+        return list(current.model_fields)
+    return []
+
+
+def _is_number(value: Any) -> bool:
+    try:
+        float(value)
+    except (TypeError, ValueError):
+        return False
+    return isinstance(value, str)
+
+
+def _lower_first(text: str) -> str:
+    return text[:1].lower() + text[1:]

@@ -1,0 +1,1 @@
+"""What a run leaves on disk: Parquet tables, weights, a recording, each with its provenance."""

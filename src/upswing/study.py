@@ -1,0 +1,45 @@
+"""The study that a results folder is of: its validated configuration, kept beside its results.
+
+So every later step asks the folder alone what should be in it.
+"""
+
+import json
+from pathlib import Path
+
+from upswing.config import Study, validated
+from upswing.problems import BadInput
+from upswing.store.files import written
+
+FILE = "study.json"
+
+
+def canonical(study: Study) -> str:
+    """The study as one line of JSON: the same text for the same meaning."""
+    return json.dumps(study.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+
+
+def write_study(text: str, results: Path) -> None:
+    """Keep the study written in ``text`` (JSON) as that of the folder ``results``."""
+    study = _parse(text, "study")
+    with written(results / FILE) as beside:
+        beside.write_text(json.dumps(study.model_dump(mode="json"), indent=1) + "\n", "utf-8")
+
+
+def read_study(results: Path) -> Study:
+    """The study that the folder ``results`` is of."""
+    path = results / FILE
+    try:
+        text = path.read_text("utf-8")
+    except OSError:
+        raise BadInput([f"{path}: missing; `make reproduce` makes a folder of results"]) from None
+    return _parse(text, str(path))
+
+
+def _parse(text: str, source: str) -> Study:
+    try:
+        content = json.loads(text)
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise BadInput([f"{source}: is not JSON: {error}"]) from None
+    if not isinstance(content, dict):
+        raise BadInput([f"{source}: must be a JSON object"])
+    return validated({source: content})

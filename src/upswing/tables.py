@@ -1,0 +1,112 @@
+"""Runs → one row a run → one row a cell."""
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from upswing.matrix import Matrix
+from upswing.store.files import written
+from upswing.store.provenance import metadata
+from upswing.store.trajectory import read_metadata
+from upswing.problems import BadInput
+from upswing.spec import parse
+
+RUNS = "tables/runs.parquet"
+CELLS = "tables/cells.parquet"
+
+MEASURES = (
+    "falls",
+    "falls_last_fifth",
+    "upright_share",
+    "above_horizontal_share",
+    "mean_reward",
+)
+"""What a cell is summed up by: median and 5th and 95th percentile over its runs."""
+
+
+def write_tables(results: Path, matrix: Matrix) -> None:
+    """Write ``runs.parquet`` and ``cells.parquet`` of the runs of ``matrix`` below ``results``.
+
+    Raises:
+        BadInput: runs are missing, or are not those of the matrix; it names them.
+    """
+    runs = collect_runs(results, matrix)
+    _write(results / RUNS, runs)
+    _write(results / CELLS, summarise(runs))
+
+
+def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
+    """One row for each run of ``matrix``, in its order."""
+    rows, problems = [], []
+    for cell in matrix.cells.values():
+        for seed in cell.seeds:
+            path = results / "runs" / f"{cell.run(seed)}.windows.parquet"
+            if not path.exists():
+                problems.append(f"{path}: missing; run the study again to make it")
+            elif (found := read_metadata(path))["spec"] != cell.of_seed(seed).canonical():
+                problems.append(f"{path}: is of another specification: {found['spec']}")
+            else:
+                rows.append(_row(found))
+    if problems:
+        raise BadInput(problems)
+    return pd.DataFrame(rows).astype({"first_stable_step": "Int64", "alpha": "float64"})
+
+
+def summarise(runs: pd.DataFrame) -> pd.DataFrame:
+    """One row for each cell of ``runs``, in their order.
+
+    Of every measure the median and the 5th and 95th percentile over runs: the spread between runs,
+    not the uncertainty of an estimate. A run that never became stable counts as infinitely late.
+    """
+    rows = []
+    for (task, architecture, alpha), group in runs.groupby(
+        ["task", "architecture", "alpha"], sort=False, dropna=False
+    ):
+        row: dict[str, Any] = {
+            "cell": group["run"].iloc[0].rsplit("/", 1)[0],
+            "task": task,
+            "architecture": architecture,
+            "alpha": alpha,
+            "steps": group["steps"].iloc[0],
+            "runs": len(group),
+            "runs_stable": int(group["first_stable_step"].notna().sum()),
+            "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
+            "runs_upright": int((group["upright_share"] >= 0.9).sum()),
+        }
+        first = group["first_stable_step"].astype("Float64").fillna(float("inf"))
+        median = float(first.quantile(0.5, interpolation="higher"))
+        row["first_stable_step_median"] = None if median == float("inf") else median
+        for measure in MEASURES:
+            row[f"{measure}_median"] = group[measure].median()
+            row[f"{measure}_p05"] = group[measure].quantile(0.05)
+            row[f"{measure}_p95"] = group[measure].quantile(0.95)
+        row["steps_per_second_median"] = group["steps_per_second"].median()
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _row(found: dict[str, Any]) -> dict[str, Any]:
+    spec = parse(found["spec"])
+    outcome, made = found["outcome"], found["provenance"]
+    return {
+        "run": found["run"],
+        "task": spec.task.name,
+        "architecture": spec.architecture.name,
+        "alpha": spec.alpha,
+        "seed": spec.seeds[0],
+        **outcome,
+        "recording": f"runs/{found['run']}.rrd",
+        "git_commit": made["git_commit"],
+        "dirty": made["dirty"],
+        "spec": found["spec"],
+    }
+
+
+def _write(path: Path, frame: pd.DataFrame) -> None:
+    table = pa.Table.from_pandas(frame, preserve_index=False)
+    described = {**(table.schema.metadata or {}), **metadata()}
+    with written(path) as beside:
+        pq.write_table(table.replace_schema_metadata(described), beside, compression="zstd")

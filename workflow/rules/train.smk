@@ -1,0 +1,24 @@
+# Training: one job for every cell and block of seeds, one rule for every block.
+
+for BLOCK in MATRIX.blocks:
+
+    rule:
+        name:
+            f"train_{BLOCK.name}"
+        output:
+            expand(
+                f"{RESULTS}/runs/{{{{task}}}}/{{{{architecture}}}}/alpha-{{{{alpha}}}}/seed-{{seed}}.{{kind}}",
+                seed=BLOCK.seeds,
+                kind=RUN_FILES,
+            ),
+        params:
+            spec=lambda wildcards, block=BLOCK: MATRIX.job(
+                f"{wildcards.task}/{wildcards.architecture}/alpha-{wildcards.alpha}", block
+            ).canonical(),
+            code=lambda wildcards: training_code(STUDY.architectures[wildcards.architecture].learner),
+        log:
+            f"{RESULTS}/logs/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.tsv"
+        shell:
+            "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"
