@@ -17,17 +17,25 @@ help: ## Say what there is to make
 .PHONY: install
 install: $(INSTALLED) ## Set up the virtual environment .venv from the lock file
 
-$(INSTALLED): requirements.lock pyproject.toml
+$(INSTALLED): $(VENV)/.locked pyproject.toml
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(VENV)/.locked: requirements.lock
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
 .PHONY: reproduce
 reproduce: install ## Run the whole study: figures, tables, recordings, report
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html"
+
+.PHONY: study
+study: install ## Run another study: make study CONFIG=config/mine.yaml
+	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
+	@$(SNAKEMAKE) --configfile "$(CONFIG)"
 
 .PHONY: smoke
 smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
@@ -52,7 +60,7 @@ types: install ## Check types
 format: install ## Format the code
 	@$(BIN)/ruff check --fix --quiet . || true
 	@$(BIN)/ruff format .
-	@$(BIN)/snakefmt --quiet Snakefile workflow
+	@$(BIN)/snakefmt Snakefile workflow
 
 .PHONY: schema
 schema: install ## Renew what is generated from the types: schema and key reference

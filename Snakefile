@@ -22,7 +22,11 @@ except BadInput as error:
 RESULTS = STUDY.results
 MATRIX = Matrix(STUDY)
 # A figure can be drawn when all cells that it shows are in the study.
-DRAWABLE = [number for number, figure in FIGURES.items() if set(figure.cells) <= set(MATRIX.cells)]
+DRAWABLE = [
+    number
+    for number, figure in FIGURES.items()
+    if set(figure.cells) <= set(MATRIX.cells)
+]
 
 
 wildcard_constraints:

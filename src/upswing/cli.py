@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,6 +14,9 @@ from upswing.problems import BadInput
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed."""
     options = _parser().parse_args(arguments)
+    # Jobs run side by side; each computes in one thread.
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         options.verb(options)
     except BadInput as error:
@@ -73,6 +77,7 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("config", nargs="?", type=Path, default=Path("config/config.yaml"))
 
     verb("schema", _schema, "Print the JSON schema of a configuration.")
+    verb("keys", _keys, "Print what every key of a configuration means, in Markdown.")
     return parser
 
 
@@ -127,6 +132,12 @@ def _schema(options: argparse.Namespace) -> None:
     from upswing.config import schema
 
     print(json.dumps(schema(), indent=2, ensure_ascii=False))
+
+
+def _keys(options: argparse.Namespace) -> None:
+    from upswing.keys import reference
+
+    print(reference(), end="")
 
 
 if __name__ == "__main__":

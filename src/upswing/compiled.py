@@ -19,6 +19,8 @@ from upswing.fingerprint import fingerprint
 P = ParamSpec("P")
 R = TypeVar("R")
 
+config: Any = numba.config  # numba makes its settings when it is imported
+
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 """Numpy's rules for division by zero; and no counting of references to arrays, which took most of a
 step (an atomic operation for every array of a learner at every call). So compiled code makes no
@@ -28,7 +30,11 @@ arrays: it changes those it is given, which its Python caller holds."""
 def compiled_modules() -> list[str]:
     """Where compiled code starts from: the loop, the measures, and every learner there is."""
     learners = sorted((Path(__file__).parent / "learners").glob("[a-z]*.py"))
-    return ["upswing.loop", "upswing.measures", *(f"upswing.learners.{path.stem}" for path in learners)]
+    return [
+        "upswing.loop",
+        "upswing.measures",
+        *(f"upswing.learners.{path.stem}" for path in learners),
+    ]
 
 
 def _choose_cache_directory() -> None:
@@ -37,12 +43,12 @@ def _choose_cache_directory() -> None:
     Numba looks only at the file that holds the outermost function: after an edit in ``pendulum.py``
     a cached loop would go on with the old pendulum.
     """
-    if os.environ.get("NUMBA_CACHE_DIR") or numba.config.DISABLE_JIT:
+    if os.environ.get("NUMBA_CACHE_DIR") or config.DISABLE_JIT:
         return
     key = fingerprint(*compiled_modules(), packages=("numba", "numpy"))
     directory = user_cache_path("upswing") / "compiled" / key
     if _writable(directory):
-        numba.config.CACHE_DIR = str(directory)
+        config.CACHE_DIR = str(directory)
 
 
 def _writable(directory: Path) -> bool:
@@ -81,7 +87,7 @@ class ByType(Generic[P, R]):
         def choose(*types: Any) -> Callable[..., R] | None:
             return bodies.get(getattr(types[0], "instance_class", type(None)))
 
-        overload(call, strict=False, jit_options=OPTIONS)(choose)
+        overload(call, strict=False, jit_options=OPTIONS)(choose)  # type: ignore[arg-type]
         self.call = call
 
     def register(self, kind: type) -> Callable[[Callable[..., R]], Callable[..., R]]:

@@ -1,4 +1,4 @@
-"""What the user wrote: the study as a typed value. Unknown keys are refused, all problems reported at once."""
+"""What the user wrote: the study as a typed value; unknown keys are refused."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -133,9 +133,9 @@ class Experiment(Strict):
     tasks: Annotated[tuple[str, ...], BeforeValidator(listed), once] = Field(
         min_length=1, description="Names of tasks."
     )
-    architectures: Annotated[
-        tuple[str, ...], BeforeValidator(listed), once
-    ] = Field(min_length=1, description="Names of architectures.")
+    architectures: Annotated[tuple[str, ...], BeforeValidator(listed), once] = Field(
+        min_length=1, description="Names of architectures."
+    )
     alphas: Annotated[tuple[Alpha, ...], BeforeValidator(listed), once] = Field(
         default=(), description="Step sizes α in (0, 1]; none for controls."
     )
@@ -232,7 +232,7 @@ class _StrictLoader(yaml.SafeLoader):
         """A mapping; ``BadInput`` for a key that stands there twice."""
         seen: set[Any] = set()
         for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)  # type: ignore[no-untyped-call]
+            key = self.construct_object(key_node, deep=True)
             line = key_node.start_mark.line + 1
             if not isinstance(key, str):
                 raise BadInput([f"{self.name}: line {line}: {key!r}: a key must be text"])

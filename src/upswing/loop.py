@@ -67,9 +67,15 @@ class Open(NamedTuple):
 
 def empty_trajectory(steps: int) -> Trajectory:
     """Room for a run of ``steps`` steps."""
-    real = [np.zeros(steps, dtype=np.float32) for _ in range(6)]
     return Trajectory(
-        *real[:4], np.zeros(steps, dtype=np.int8), *real[4:], np.zeros(steps, dtype=np.bool_)
+        angle=np.zeros(steps, dtype=np.float32),
+        angular_velocity=np.zeros(steps, dtype=np.float32),
+        cart_position=np.zeros(steps, dtype=np.float32),
+        cart_velocity=np.zeros(steps, dtype=np.float32),
+        action=np.zeros(steps, dtype=np.int8),
+        reward=np.zeros(steps, dtype=np.float32),
+        td_error=np.zeros(steps, dtype=np.float32),
+        reset=np.zeros(steps, dtype=np.bool_),
     )
 
 
@@ -174,6 +180,6 @@ def close(learner: NamedTuple, rule: Rule, open_: Open, module: int, next_value:
     tile, action = open_.tile[module], open_.action[module]
     q = values(learner, module, tile)
     bootstrap = rule.bootstrap_sign * rule.discount * next_value
-    td_error = rule.reward_scale * open_.reward[module] + bootstrap - q[action]
+    td_error: float = rule.reward_scale * open_.reward[module] + bootstrap - q[action]
     update(learner, module, tile, action, rule.step_size * td_error)
     return td_error

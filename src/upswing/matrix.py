@@ -76,5 +76,3 @@ class Matrix:
 def training_code(learner: str) -> str:
     """The fingerprint of the code that trains a learner of the family ``learner``."""
     return fingerprint("upswing.train", f"upswing.learners.{learner}", packages=COMPUTING_PACKAGES)
-
-

@@ -5,7 +5,7 @@ The *last fifth* is the last 20 % of the steps; *upright* is |φ| ≤ 20°, *abo
 """
 
 from math import floor, pi, radians
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,11 +94,6 @@ def in_windows(trajectory: Trajectory) -> Windows:
     )
     _fill(trajectory, windows)
     return windows
-
-
-def as_columns(measures: Measures) -> dict[str, Any]:
-    """The measures by name."""
-    return measures._asdict()
 
 
 @compiled

@@ -58,7 +58,7 @@ def step(
 def step_cart(
     pendulum: Pendulum, position: float, velocity: float, acceleration: float
 ) -> tuple[float, float]:
-    """x [m] and ẋ [m/s] of the cart one time step later (eq. 24, 25); the track is infinite."""
+    """X [m] and ẋ [m/s] of the cart one time step later (eq. 24, 25); the track is infinite."""
     dt = pendulum.time_step
     next_position = position + velocity * dt + acceleration * dt * dt
     next_velocity = velocity + acceleration * dt

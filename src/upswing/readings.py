@@ -1,9 +1,9 @@
 """The readings R1–R15: one meaning each for what the thesis leaves open or says in two ways."""
 
-from collections.abc import Iterable
-from typing import Any, Literal
+from collections.abc import Callable, Iterable
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 
 TABLE, NETWORKS = "table", "networks"
 LEARNERS = (TABLE, NETWORKS)
@@ -20,6 +20,25 @@ def _reading(
     """A reading: its number, its question, and which learners and tasks it can touch at all."""
     extra: dict[str, Any] = {"reading": f"R{number}", "touches": list(touches), "only": only}
     return Field(default=default, description=f"R{number}: {question}", json_schema_extra=extra)
+
+
+def _check(options: tuple[float, ...]) -> Callable[[float], float]:
+    def check(value: float) -> float:
+        if value not in options:
+            raise ValueError(f"must be one of {', '.join(f'{option:g}' for option in options)}")
+        return value
+
+    return check
+
+
+WEIGHTS = (1, 0.5, 0.1)
+RATES = (0.03, 0.1, 0.3, 0.5, 1)
+InitialWeights = Annotated[
+    float, AfterValidator(_check(WEIGHTS)), WithJsonSchema({"enum": list(WEIGHTS)})
+]
+LearningRate = Annotated[
+    float, AfterValidator(_check(RATES)), WithJsonSchema({"enum": list(RATES)})
+]
 
 
 class Readings(BaseModel):
@@ -59,10 +78,10 @@ class Readings(BaseModel):
     biases: Literal["none", "hidden", "both"] = _reading(
         10, "none", "which neurons of a network have a bias?", (NETWORKS,)
     )
-    initial_weights: Literal[1, 0.5, 0.1] = _reading(
+    initial_weights: InitialWeights = _reading(
         11, 1, "the first weights are uniform in ± this.", (NETWORKS,)
     )
-    learning_rate: Literal[0.03, 0.1, 0.3, 0.5, 1] = _reading(
+    learning_rate: LearningRate = _reading(
         12, 0.1, "backpropagation's own rate η, beside the α of the update rule.", (NETWORKS,)
     )
     error_sign: Literal["corrected", "printed"] = _reading(

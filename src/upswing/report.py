@@ -29,9 +29,7 @@ def write_report(results: Path, templates: Path) -> None:
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters.update(
-        number=_number, percent=_percent, spread=_spread, alpha=_alpha
-    )
+    environment.filters.update(number=_number, percent=_percent, spread=_spread, alpha=_alpha)
     style = (templates / "style.css").read_text("utf-8")
     page = environment.get_template("index.html.j2").render(
         study=study,
@@ -50,8 +48,10 @@ def write_report(results: Path, templates: Path) -> None:
 def _rows(path: Path) -> list[dict[str, Any]]:
     if not path.exists():
         raise BadInput([f"{path}: missing; `upswing tables` makes it"])
-    rows: list[dict[str, Any]] = pd.read_parquet(path).to_dict("records")
-    return rows
+    return [
+        {str(name): value for name, value in row.items()}
+        for row in pd.read_parquet(path).to_dict("records")
+    ]
 
 
 def _figures(results: Path) -> list[dict[str, Any]]:

@@ -33,9 +33,7 @@ class Spec(Strict):
     task: NamedTask
     architecture: NamedArchitecture
     alpha: Alpha | None
-    seeds: Annotated[
-        tuple[Seed, ...], BeforeValidator(listed), Field(min_length=1), once
-    ]
+    seeds: Annotated[tuple[Seed, ...], BeforeValidator(listed), Field(min_length=1), once]
     epsilon: Share
     discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)]
     readings: Readings
@@ -84,7 +82,9 @@ def parse(text: str) -> Spec:
     except ValidationError as error:
         raise BadInput(explained(Spec, error, lambda _: "spec")) from None
     if (spec.alpha is None) != (spec.architecture.learner == "control"):
-        raise BadInput([f"spec: alpha: {shown(spec.alpha)}: a control has null, a learner a number"])
+        raise BadInput(
+            [f"spec: alpha: {shown(spec.alpha)}: a control has null, a learner a number"]
+        )
     return spec
 
 

@@ -8,11 +8,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from upswing.matrix import Matrix
+from upswing.problems import BadInput
+from upswing.spec import parse
 from upswing.store.files import written
 from upswing.store.provenance import metadata
 from upswing.store.trajectory import read_metadata
-from upswing.problems import BadInput
-from upswing.spec import parse
 
 RUNS = "tables/runs.parquet"
 CELLS = "tables/cells.parquet"

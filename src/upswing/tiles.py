@@ -61,10 +61,7 @@ def locate(tiles: Tiles, angle: float, angular_velocity: float) -> tuple[int, in
     quarter = tiles.angle_parts // 4
     if middle - tiles.horizon <= row < middle + tiles.horizon:
         return BALANCING_MODULE, (row - quarter) * VELOCITY_PARTS + column
-    if row < middle:
-        row = min(row, quarter - 1)
-    else:
-        row = max(row - middle, quarter)
+    row = min(row, quarter - 1) if row < middle else max(row - middle, quarter)
     return UPSWING_MODULE, row * VELOCITY_PARTS + column
 
 

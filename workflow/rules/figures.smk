@@ -3,7 +3,11 @@
 
 def figure_inputs(wildcards):
     cells = FIGURES[int(wildcards.number)].cells
-    runs = [MATRIX.cells[cell].run(seed) for cell in cells for seed in MATRIX.cells[cell].seeds]
+    runs = [
+        MATRIX.cells[cell].run(seed)
+        for cell in cells
+        for seed in MATRIX.cells[cell].seeds
+    ]
     return expand(
         f"{RESULTS}/runs/{{run}}.{{kind}}",
         run=runs,
@@ -19,13 +23,13 @@ rule figure:
         f"{RESULTS}/figures/fig{{number}}.svg",
         f"{RESULTS}/figures/fig{{number}}.png",
         f"{RESULTS}/figures/fig{{number}}.json",
-    params:
-        code=lambda wildcards: fingerprint(
-            f"upswing.figures.fig{wildcards.number}", packages=["matplotlib"]
-        ),
     log:
         f"{RESULTS}/logs/figure/{{number}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/figure/{{number}}.tsv"
+    params:
+        code=lambda wildcards: fingerprint(
+            f"upswing.figures.fig{wildcards.number}", packages=["matplotlib"]
+        ),
     shell:
         "upswing figure {wildcards.number} {RESULTS:q} > {log:q} 2>&1"

@@ -15,11 +15,11 @@ rule report:
         "report/style.css",
     output:
         f"{RESULTS}/report/index.html",
-    params:
-        code=fingerprint("upswing.report"),
     log:
         f"{RESULTS}/logs/report.log",
     benchmark:
         f"{RESULTS}/benchmarks/report.tsv"
+    params:
+        code=fingerprint("upswing.report"),
     shell:
         "upswing report {RESULTS:q} > {log:q} 2>&1"

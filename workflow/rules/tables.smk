@@ -4,12 +4,12 @@
 rule study:
     output:
         f"{RESULTS}/study.json",
-    params:
-        study=canonical(STUDY),
     log:
         f"{RESULTS}/logs/study.log",
     benchmark:
         f"{RESULTS}/benchmarks/study.tsv"
+    params:
+        study=canonical(STUDY),
     shell:
         "upswing study {params.study:q} --results {RESULTS:q} > {log:q} 2>&1"
 
@@ -21,11 +21,11 @@ rule tables:
     output:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/cells.parquet",
-    params:
-        code=fingerprint("upswing.tables"),
     log:
         f"{RESULTS}/logs/tables.log",
     benchmark:
         f"{RESULTS}/benchmarks/tables.tsv"
+    params:
+        code=fingerprint("upswing.tables"),
     shell:
         "upswing tables {RESULTS:q} > {log:q} 2>&1"

@@ -11,14 +11,17 @@ for BLOCK in MATRIX.blocks:
                 seed=BLOCK.seeds,
                 kind=RUN_FILES,
             ),
-        params:
-            spec=lambda wildcards, block=BLOCK: MATRIX.job(
-                f"{wildcards.task}/{wildcards.architecture}/alpha-{wildcards.alpha}", block
-            ).canonical(),
-            code=lambda wildcards: training_code(STUDY.architectures[wildcards.architecture].learner),
         log:
             f"{RESULTS}/logs/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.log",
         benchmark:
             f"{RESULTS}/benchmarks/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.tsv"
+        params:
+            spec=lambda wildcards, block=BLOCK: MATRIX.job(
+                f"{wildcards.task}/{wildcards.architecture}/alpha-{wildcards.alpha}",
+                block,
+            ).canonical(),
+            code=lambda wildcards: training_code(
+                STUDY.architectures[wildcards.architecture].learner
+            ),
         shell:
             "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"

@@ -103,4 +103,5 @@ class Results:
         path = self.folder / "runs" / f"{run}.{kind}.parquet"
         if not path.exists():
             raise BadInput([f"{path}: missing; run the study again to make it"])
-        return pq.read_table(path).to_pandas()
+        frame: pd.DataFrame = pq.read_table(path).to_pandas()
+        return frame

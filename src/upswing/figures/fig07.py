@@ -23,9 +23,7 @@ def draw(results: "Results") -> "Drawing":
     figure, axes = grid_of_panels(2)
     for row, steps in enumerate((5_000, None)):
         panels.angle(axes[2 * row], run, CELL, steps)
-        panels.falls(
-            axes[2 * row + 1], [(CELL, "networks", crowd), (TABLE, "table", table)], steps
-        )
+        panels.falls(axes[2 * row + 1], [(CELL, "networks", crowd), (TABLE, "table", table)], steps)
     caption = (
         "Q-learning with three networks of 80-5-1 neurons in the balancing task, α = 1: the first "
         f"5,000 steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls "

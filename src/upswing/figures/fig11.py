@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 CELL = "full-control/modular-networks-5/alpha-1"
 SINGLE = "full-control/networks-5/alpha-1"
 FIGURE = Declaration(
-    "Modular networks at full control, α = 1", "§4.6.3", ("C12", "C13", "C14", "C15"), (CELL, SINGLE)
+    "Modular networks at full control, α = 1",
+    "§4.6.3",
+    ("C12", "C13", "C14", "C15"),
+    (CELL, SINGLE),
 )
 
 

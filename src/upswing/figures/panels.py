@@ -37,11 +37,11 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
         axes.plot(shown["step"], degrees, color=colour(cell), linewidth=0.6)
         last = steps
     else:
-        lowest, highest = (np.degrees(run.windows[f"{which}_angle"]) for which in ("lowest", "highest"))
-        first = run.windows["first_step"].to_numpy()
+        first = run.windows["first_step"].to_numpy(float)
         last = int(first[-1] + run.windows["steps"].iloc[-1])
-        edges = np.append(first, last)
-        axes.stairs(highest, edges, baseline=lowest, fill=True, color=colour(cell), linewidth=0.3)
+        middles = np.repeat(first + run.windows["steps"].to_numpy(float) / 2, 2)
+        extremes = np.degrees(run.windows[["lowest_angle", "highest_angle"]].to_numpy(float))
+        axes.plot(middles, extremes.ravel(), color=colour(cell), linewidth=0.6)
     limit = 90 if run.kind == "balancing" else 180
     axes.set(ylim=(-1.08 * limit, 1.08 * limit), yticks=np.linspace(-limit, limit, 5))
     axes.set(xlim=(0, last), ylabel="angle φ [°]", title=f"Median run (seed {run.seed})")
@@ -99,13 +99,13 @@ def one_and_all(
     return figure, shown
 
 
-def _crowd(
-    axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None
-) -> None:
+def _crowd(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None) -> None:
     """Lines of all runs of the first cell, thin, and medians of all cells, thick and labelled."""
     ends = []
     for number, (cell, label, last_step, values) in enumerate(lines):
-        within = len(last_step) if steps is None else int(np.searchsorted(last_step, steps, "right"))
+        within = (
+            len(last_step) if steps is None else int(np.searchsorted(last_step, steps, "right"))
+        )
         every = max(1, within // POINTS)
         x, y = last_step[:within:every], values[:, :within:every]
         if number == 0:
@@ -133,6 +133,14 @@ def _label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
 
 
 def _steps_axis(axes: Axes) -> None:
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    axes.xaxis.set_major_formatter(FuncFormatter(_short))
     axes.xaxis.set_major_locator(MaxNLocator(4))
     axes.set_xlabel("step of 5 ms")
+
+
+def _short(value: float, _: int) -> str:
+    """A number of steps, written short: 500, 15k, 2.5M."""
+    for size, letter in ((1e6, "M"), (1e3, "k")):
+        if value >= size:
+            return f"{value / size:g}{letter}"
+    return f"{value:g}"

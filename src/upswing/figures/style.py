@@ -6,11 +6,11 @@ import matplotlib as mpl
 
 mpl.use("Agg")
 
-import matplotlib.pyplot as plt  # noqa: E402  the backend comes first
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from upswing.store.files import written  # noqa: E402
+from upswing.store.files import written
 
 WIDTH = 7.2
 """Width of a figure [inch]: a page's text, readable at half of it."""

@@ -28,7 +28,9 @@ class Kept(NamedTuple):
     hidden_at: Counter
     q: Array
     q_at: Counter
-    hidden_updates: Counter  # updates that changed the hidden layer of all tiles: (modules, actions)
+    hidden_updates: (
+        Counter  # updates that changed the hidden layer of all tiles: (modules, actions)
+    )
     updates: Counter  # all updates of a network: (modules, actions)
 
 

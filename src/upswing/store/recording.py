@@ -47,8 +47,8 @@ def write_recording(
         recording.send_property("run", rr.AnyValues(**_known(properties)))
         for entity, names in SERIES.items():
             recording.log(entity, rr.SeriesLines(names=names), static=True)
-        steps, whole = recorded_steps(len(trajectory.angle), first_stable_step)
-        for entity, values in _values(trajectory, steps, whole).items():
+        steps = recorded_steps(len(trajectory.angle), first_stable_step)
+        for entity, values in _values(trajectory, steps).items():
             recording.send_columns(
                 entity,
                 indexes=[
@@ -63,10 +63,8 @@ def write_recording(
         recording.disconnect()
 
 
-def recorded_steps(
-    steps: int, first_stable_step: int | None
-) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """The steps in a recording, and for each whether the next one is in it too, shape (recorded,)."""
+def recorded_steps(steps: int, first_stable_step: int | None) -> NDArray[np.int64]:
+    """The steps in a recording, in order, shape (recorded,)."""
     chosen = np.zeros(steps, dtype=np.bool_)
     chosen[:: max(1, steps // THINNED)] = True
     chosen[:WHOLE_AT_START] = True
@@ -74,15 +72,13 @@ def recorded_steps(
     if first_stable_step is not None:
         begin = max(0, first_stable_step - WHOLE_AROUND_SUCCESS)
         chosen[begin : first_stable_step + WHOLE_AROUND_SUCCESS] = True
-    at = np.flatnonzero(chosen)
-    return at, np.diff(at, append=at[-1] + 1) == 1
+    return np.flatnonzero(chosen)
 
 
 def layout() -> rrb.Blueprint:
     """The views a recording opens with: state, cart, action and learning over the whole run."""
-    whole_run = rrb.TimeAxis(
-        view_range=rr.TimeRange(start=rr.TimeRangeBoundary.infinite(), end=rr.TimeRangeBoundary.infinite())
-    )
+    unlimited = rr.TimeRangeBoundary.infinite()
+    whole_run = rrb.TimeAxis(view_range=rr.TimeRange(start=unlimited, end=unlimited))
     return rrb.Blueprint(
         rrb.Vertical(
             *(
@@ -100,18 +96,18 @@ def layout() -> rrb.Blueprint:
     )
 
 
-def _values(
-    trajectory: Trajectory, steps: NDArray[np.int64], whole: NDArray[np.bool_]
-) -> dict[str, Real]:
+def _values(trajectory: Trajectory, steps: NDArray[np.int64]) -> dict[str, Real]:
     """What each entity shows at ``steps``, shape (recorded, lines)."""
-    at = Trajectory(*(column[steps] for column in trajectory))
-    lines = {
-        "state": (at.angle, at.angular_velocity),
-        "cart": (at.cart_position, at.cart_velocity),
-        "action": (np.array(ACCELERATIONS)[at.action],),
-        "learning": (at.reward, at.td_error),
+    lines: dict[str, tuple[NDArray[Any], ...]] = {
+        "state": (trajectory.angle, trajectory.angular_velocity),
+        "cart": (trajectory.cart_position, trajectory.cart_velocity),
+        "action": (np.array(ACCELERATIONS)[trajectory.action],),
+        "learning": (trajectory.reward, trajectory.td_error),
     }
-    return {entity: _rounded(np.stack(columns, axis=1)) for entity, columns in lines.items()}
+    return {
+        entity: _rounded(np.stack([column[steps] for column in columns], axis=1))
+        for entity, columns in lines.items()
+    }
 
 
 def _rounded(values: NDArray[Any]) -> Real:
