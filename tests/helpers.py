@@ -1,0 +1,61 @@
+"""What several tests need: specifications, and runs of them."""
+
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.loop import Trajectory, empty_trajectory
+from upswing.readings import Readings
+from upswing.spec import NamedArchitecture, NamedTask, Spec
+from upswing.train import prepare
+
+ARCHITECTURES: dict[str, dict[str, Any]] = {
+    "table": {"learner": "table"},
+    "modular-table": {"learner": "table", "modular": True},
+    "networks-5": {"learner": "networks", "hidden": (5,)},
+    "networks-30": {"learner": "networks", "hidden": (30,)},
+    "networks-20-5": {"learner": "networks", "hidden": (20, 5)},
+    "modular-networks-5": {"learner": "networks", "hidden": (5,), "modular": True},
+    "modular-networks-20-5": {"learner": "networks", "hidden": (20, 5), "modular": True},
+    "idle": {"learner": "control", "behaviour": "idle"},
+    "random": {"learner": "control", "behaviour": "random"},
+}
+
+
+def make_spec(
+    kind: str = "balancing",
+    architecture: str = "table",
+    alpha: float | None = 1,
+    steps: int = 2_000,
+    seeds: tuple[int, ...] = (0,),
+    **readings: Any,
+) -> Spec:
+    """A specification; what is not given is as in the thesis."""
+    settings = ARCHITECTURES[architecture]
+    return Spec(
+        task=NamedTask(name=kind, kind=kind, steps=steps),
+        architecture=NamedArchitecture(name=architecture, **settings),
+        alpha=None if settings["learner"] == "control" else alpha,
+        seeds=seeds,
+        epsilon=0.01,
+        discount=0.7,
+        readings=Readings(**readings),
+    )
+
+
+def run(spec: Spec, seed: int = 0, pieces: int = 1) -> tuple[Trajectory, dict[str, NDArray[Any]]]:
+    """The trajectory of a run and what it learned, learned in so many pieces."""
+    trajectory = empty_trajectory(spec.task.steps)
+    learner, advance = prepare(spec, seed, trajectory)
+    borders = np.linspace(0, spec.task.steps, pieces + 1).astype(int)
+    for first, last in zip(borders[:-1], borders[1:], strict=True):
+        advance(int(first), int(last))
+    return trajectory, deepcopy(dict(learner.learned))
+
+
+def assert_same(one: Trajectory, other: Trajectory) -> None:
+    """Every column of both is the same, NaN being NaN."""
+    for name, a, b in zip(one._fields, one, other, strict=True):
+        np.testing.assert_array_equal(a, b, err_msg=name)
