@@ -7,7 +7,8 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 CORES ?= all
-SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default
+# --logger rich: a bar for every rule in a terminal.
+SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default --logger rich
 INSTALLED := $(VENV)/.installed
 
 .PHONY: help
@@ -44,7 +45,7 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 
 .PHONY: test
 test: install ## Run all tests
-	@$(BIN)/python -m pytest --numprocesses auto
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup
 
 .PHONY: lint
 lint: install ## Check style and formatting

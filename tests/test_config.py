@@ -62,7 +62,7 @@ BAD = {
     "network of size 0": (put("architectures", "networks-5", "hidden", [0]), "architectures.networks-5.hidden[0]: 0: "),
     "three layers": (put("architectures", "networks-5", "hidden", [1, 2, 3]), "architectures.networks-5.hidden"),
     "network without size": (put("architectures", "networks-5", "hidden", []), "goes with `learner: networks`"),
-    "duplicate cell": (put("experiments", 1, "tasks", ["balancing"]), "balancing/table/alpha-1.0\": duplicate cell: experiments[0]"),
+    "duplicate cell": (put("experiments", 1, "tasks", ["balancing"]), "balancing/table/alpha-1\": duplicate cell: experiments[0]"),
     "steps 0": (put("tasks", "balancing", "steps", 0), "tasks.balancing.steps: 0: "),
     "steps as truth": (put("tasks", "balancing", "steps", True), "tasks.balancing.steps: true: "),
     "discount 1": (put("discount", 1), "discount: 1: "),
@@ -196,7 +196,9 @@ def test_specs_that_are_none(text, expected):
 
 
 def test_bad_values_in_a_spec():
-    good = json.loads(next(iter(Matrix(load(ROOT / "config/config.yaml")).cells.values())).canonical())
+    good = json.loads(
+        next(iter(Matrix(load(ROOT / "config/config.yaml")).cells.values())).canonical()
+    )
     for key, value, expected in [
         ("alpha", 2, "spec: alpha: 2: "),
         ("alpha", None, "a control has null, a learner a number"),

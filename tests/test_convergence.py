@@ -33,7 +33,9 @@ def test_the_largest_error_shrinks_by_the_discount_in_every_full_interval(states
     for _ in range(30):
         for visit in rng.permutation(states * 3):  # a full interval, in any order
             state, action = divmod(int(visit), 3)
-            target = rewards[state, action] + discount * max(values(table, 0, following[state, action]))
+            target = rewards[state, action] + discount * max(
+                values(table, 0, following[state, action])
+            )
             update(table, 0, state, action, target - table.q[0, state, action])
         now = np.abs(table.q[0] - best).max()
         assert now <= discount * error + 1e-12

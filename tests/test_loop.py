@@ -124,9 +124,7 @@ def test_different_seeds_differ_in_start_exploration_and_weights():
 def test_cells_with_the_same_seed_share_starts_and_exploration():
     table, networks = make_spec("balancing", "table"), make_spec("balancing", "networks-5")
     (one, _), (other, _) = run(table), run(networks)
-    starts = [
-        np.concatenate([t.angle[:1], t.angle[1:][t.reset[:-1]]]) for t in (one, other)
-    ]
+    starts = [np.concatenate([t.angle[:1], t.angle[1:][t.reset[:-1]]]) for t in (one, other)]
     common = min(map(len, starts))
     assert common > 5
     np.testing.assert_array_equal(starts[0][:common], starts[1][:common])

@@ -62,7 +62,9 @@ def test_small_swings_have_the_period_of_a_rod():
         if before > 0 >= angle:
             crossings.append(t + before / (before - angle))
     period = np.diff(crossings).mean() * body.time_step
-    assert period == pytest.approx(2 * np.pi * np.sqrt(2 * body.length / (3 * body.gravity)), rel=1e-4)
+    assert period == pytest.approx(
+        2 * np.pi * np.sqrt(2 * body.length / (3 * body.gravity)), rel=1e-4
+    )
 
 
 def energy(body, angle, velocity):

@@ -46,7 +46,9 @@ def test_a_value_that_is_not_a_number_does_not_stop_the_policy():
     assert epsilon_greedy((np.nan, np.nan, np.nan), 0.01, True, 0.5) in (0, 1, 2)
 
 
-@pytest.mark.parametrize(("kind", "widest"), [("balancing", np.radians(20)), ("full-control", np.pi)])
+@pytest.mark.parametrize(
+    ("kind", "widest"), [("balancing", np.radians(20)), ("full-control", np.pi)]
+)
 def test_starts_fill_their_range(kind, widest):
     task, rng = tasks.KINDS[kind](Readings()), np.random.default_rng(1)
     starts = np.array([tasks.start(task, rng) for _ in range(4_000)])

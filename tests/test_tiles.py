@@ -42,7 +42,9 @@ def test_half_turn_tiles_are_45_degrees_by_2_radians_a_second(kind, parts, limit
 
 def test_radians_leaves_half_of_the_balancing_tiles_unvisited():
     tiles = tiles_for("balancing", False, RADIANS)
-    rows = {locate(tiles, angle, 0.0)[1] // 20 for angle in np.linspace(-np.pi / 2, np.pi / 2, 99)[:-1]}
+    rows = {
+        locate(tiles, angle, 0.0)[1] // 20 for angle in np.linspace(-np.pi / 2, np.pi / 2, 99)[:-1]
+    }
     assert rows == {1, 2}
 
 
@@ -62,7 +64,10 @@ def test_a_fixed_control_structure_divides_at_the_horizontal(angle, velocity):
 
 
 def test_two_modules_are_one_grid_under_another_name():
-    one, two = tiles_for("full-control", False, HALF_TURN), tiles_for("full-control", True, HALF_TURN)
+    one, two = (
+        tiles_for("full-control", False, HALF_TURN),
+        tiles_for("full-control", True, HALF_TURN),
+    )
     pairs = set()
     for angle in np.linspace(-np.pi, np.pi, 801):
         for velocity in np.linspace(-22, 22, 89):
@@ -72,7 +77,10 @@ def test_two_modules_are_one_grid_under_another_name():
 
 
 def test_a_balancing_module_has_the_tiles_of_the_balancing_task():
-    alone, module = tiles_for("balancing", False, HALF_TURN), tiles_for("full-control", True, HALF_TURN)
+    alone, module = (
+        tiles_for("balancing", False, HALF_TURN),
+        tiles_for("full-control", True, HALF_TURN),
+    )
     for angle in np.linspace(-np.pi / 2, np.pi / 2, 101)[:-1]:
         assert locate(alone, angle, 3.0)[1] == locate(module, angle, 3.0)[1]
 

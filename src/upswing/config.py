@@ -222,7 +222,8 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
                     earlier = cells.setdefault((task, name, alpha), number)
                     if earlier != number:
                         right = f"duplicate cell: experiments[{earlier}] has it already"
-                        yield problem(source, place, f"{task}/{name}/alpha-{alpha}", right)
+                        written = "none" if alpha is None else f"{alpha:g}"
+                        yield problem(source, place, f"{task}/{name}/alpha-{written}", right)
 
 
 class _StrictLoader(yaml.SafeLoader):
