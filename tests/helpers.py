@@ -1,6 +1,7 @@
 """What several tests need: specifications, and runs of them."""
 
 from copy import deepcopy
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def run(spec: Spec, seed: int = 0, pieces: int = 1) -> tuple[Trajectory, dict[st
     trajectory = empty_trajectory(spec.task.steps)
     learner, advance = prepare(spec, seed, trajectory)
     borders = np.linspace(0, spec.task.steps, pieces + 1).astype(int)
-    for first, last in zip(borders[:-1], borders[1:], strict=True):
+    for first, last in pairwise(borders):
         advance(int(first), int(last))
     return trajectory, deepcopy(dict(learner.learned))
 

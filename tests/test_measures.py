@@ -71,10 +71,8 @@ def test_first_stable_step_of_balancing(resets):
 def test_first_stable_step_of_full_control(stretches):
     upright = np.concatenate([np.full(length, up) for up, length in stretches])
     trajectory = made_of(np.where(upright, 0.1, 3.0))
-    if len(upright) < measures.STABLE_STEPS:
-        expected = None
-    else:
-        expected = first_stable_plainly(upright, 0.9)
+    long_enough = len(upright) >= measures.STABLE_STEPS
+    expected = first_stable_plainly(upright, 0.9) if long_enough else None
     assert measures.measure(trajectory, "full-control").first_stable_step == expected
 
 

@@ -87,7 +87,7 @@ def test_the_weights_are_what_was_learned(stored):
 
 
 def test_the_recording_read_back(stored):
-    folder, spec = stored
+    folder, _ = stored
     reader = rr.chunk.RrdReader(folder / "seed-4.rrd")
     (store,) = reader.recordings()
     assert store.application_id == "upswing-balancing"
@@ -141,9 +141,14 @@ def test_a_failing_run_is_named_and_the_others_are_there(tmp_path, monkeypatch, 
 
 def test_a_file_is_whole_or_not_there(tmp_path):
     path = tmp_path / "deep" / "file"
-    with pytest.raises(RuntimeError), written(path) as beside:
-        beside.write_text("half", "utf-8")
-        raise RuntimeError
+
+    def fail_half_way():
+        with written(path) as beside:
+            beside.write_text("half", "utf-8")
+            raise RuntimeError
+
+    with pytest.raises(RuntimeError):
+        fail_half_way()
     assert list(path.parent.iterdir()) == []
     with written(path) as beside:
         beside.write_text("whole", "utf-8")
