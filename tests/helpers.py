@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from upswing.loop import Trajectory, empty_trajectory
 from upswing.readings import Readings
+from upswing.setting import prepare
 from upswing.spec import NamedArchitecture, NamedTask, Spec
-from upswing.train import prepare
 
 ARCHITECTURES: dict[str, dict[str, Any]] = {
     "table": {"learner": "table"},
@@ -49,11 +49,11 @@ def make_spec(
 def run(spec: Spec, seed: int = 0, pieces: int = 1) -> tuple[Trajectory, dict[str, NDArray[Any]]]:
     """The trajectory of a run and what it learned, learned in so many pieces."""
     trajectory = empty_trajectory(spec.task.steps)
-    learner, advance = prepare(spec, seed, trajectory)
+    setting = prepare(spec, seed)
     borders = np.linspace(0, spec.task.steps, pieces + 1).astype(int)
     for first, last in pairwise(borders):
-        advance(int(first), int(last))
-    return trajectory, deepcopy(dict(learner.learned))
+        setting.advance(trajectory, int(first), int(last))
+    return trajectory, deepcopy(dict(setting.learner.learned))
 
 
 def assert_same(one: Trajectory, other: Trajectory) -> None:

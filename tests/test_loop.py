@@ -13,7 +13,8 @@ from tests.helpers import ARCHITECTURES, assert_same, make_spec, run
 from tests.transcription import transcribe
 from upswing.loop import empty_trajectory
 from upswing.readings import Readings
-from upswing.train import learn, prepare
+from upswing.setting import prepare
+from upswing.train import learn
 
 CASES = [
     *(("balancing", name, {}) for name in ARCHITECTURES),
@@ -53,7 +54,7 @@ def test_same_trajectory_as_the_transcription(kind, architecture, readings, alph
     table = ARCHITECTURES[architecture]["learner"] != "networks"
     spec = make_spec(kind, architecture, alpha, steps=2_500 if table else 500, **readings)
     for seed in (0, 1):
-        learner, _ = prepare(spec, seed, empty_trajectory(1))
+        learner = prepare(spec, seed).learner
         columns = transcribe(spec, seed, {k: v.copy() for k, v in learner.learned.items()})
         trajectory = learn(spec, seed, empty_trajectory(spec.task.steps)).trajectory
         np.testing.assert_array_equal(trajectory.action, columns["action"])
@@ -113,7 +114,7 @@ def test_a_run_in_pieces_is_the_run_in_one():
 
 def test_different_seeds_differ_in_start_exploration_and_weights():
     spec = make_spec("full-control", "networks-5")
-    first = [prepare(spec, seed, empty_trajectory(1))[0].learned["weights.0"] for seed in (0, 1)]
+    first = [prepare(spec, seed).learner.learned["weights.0"] for seed in (0, 1)]
     assert (first[0] != first[1]).mean() > 0.99
     random = make_spec("full-control", "random")
     (one, _), (other, _) = run(random, 0), run(random, 1)
@@ -182,11 +183,8 @@ def test_every_option_of_every_reading_changes_a_run_it_touches(name, option):
 
 
 def test_pessimistic_first_q_is_the_lowest_return():
-    learner, _ = prepare(
-        make_spec("full-control", first_q="pessimistic", reward_unit="radians"),
-        0,
-        empty_trajectory(1),
-    )
+    spec = make_spec("full-control", first_q="pessimistic", reward_unit="radians")
+    learner = prepare(spec, 0).learner
     np.testing.assert_allclose(learner.learned["q"], -(np.pi**2) / 0.3)
 
 

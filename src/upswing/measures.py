@@ -40,6 +40,13 @@ class Measures(NamedTuple):
     above_horizontal_share: float
     mean_reward: float  # [rad²]
     first_stable_step: int | None  # the start of the first stable window; None if there is none
+    falls_first_5000: int  # in the first 5,000 steps
+    falls_2500_to_5000: int  # from step 2,500 up to step 5,000
+    falls_after_stable: int | None  # from the first stable step on; None if there is none
+    swing_ups: int  # arrivals above the horizontal from below
+    swing_ups_last_fifth: int
+    arrival_speed: float | None  # mean |φ̇| on arriving [rad/s]; None without arrivals
+    too_fast_share: float | None  # share of arrivals that ±10 m/s² cannot stop; None without them
 
 
 class Windows(NamedTuple):
@@ -57,13 +64,17 @@ class Windows(NamedTuple):
     mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did
 
 
-def measure(trajectory: Trajectory, kind: str) -> Measures:
-    """What a run of a ``kind`` of task came to."""
+def measure(trajectory: Trajectory, kind: str, too_fast: float) -> Measures:
+    """What a run of a ``kind`` of task came to.
+
+    ``too_fast`` is the speed at the horizontal [rad/s] above which nothing stops the pendulum.
+    """
     steps = len(trajectory.angle)
     last = last_fifth(steps)
     falls, upright, above, reward = _sums(trajectory, last, steps)
     first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, STABLE_SHARE)
     length = steps - last
+    swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
     return Measures(
         steps=steps,
         falls=_sums(trajectory, 0, steps)[0],
@@ -72,6 +83,13 @@ def measure(trajectory: Trajectory, kind: str) -> Measures:
         above_horizontal_share=above / length,
         mean_reward=reward / length,
         first_stable_step=None if first_stable < 0 else first_stable,
+        falls_first_5000=_sums(trajectory, 0, min(5_000, steps))[0],
+        falls_2500_to_5000=_sums(trajectory, min(2_500, steps), min(5_000, steps))[0],
+        falls_after_stable=None if first_stable < 0 else _sums(trajectory, first_stable, steps)[0],
+        swing_ups=swing_ups,
+        swing_ups_last_fifth=_arrivals(trajectory, last, steps, too_fast)[0],
+        arrival_speed=speed / swing_ups if swing_ups else None,
+        too_fast_share=unstoppable / swing_ups if swing_ups else None,
     )
 
 
@@ -124,6 +142,28 @@ def _sums(trajectory: Trajectory, first: int, last: int) -> tuple[int, int, int,
         above += tilt <= HORIZONTAL
         reward += trajectory.reward[t]
     return falls, upright, above, reward
+
+
+@compiled
+def _arrivals(
+    trajectory: Trajectory, first: int, last: int, too_fast: float
+) -> tuple[int, float, int]:
+    """Arrivals above the horizontal from below, their speeds in sum, and how many are too fast.
+
+    The speed is that at the horizontal itself, between the last step below and the first above.
+    """
+    arrivals, speeds, unstoppable = 0, 0.0, 0
+    for t in range(first, last - 1):
+        below = abs(physical(trajectory.angle[t]))
+        above = abs(physical(trajectory.angle[t + 1]))
+        if above <= HORIZONTAL < below and not trajectory.reset[t]:
+            before, after = trajectory.angular_velocity[t], trajectory.angular_velocity[t + 1]
+            share = (below - HORIZONTAL) / (below - above)
+            speed = abs(before + share * (after - before))
+            arrivals += 1
+            speeds += speed
+            unstoppable += speed > too_fast
+    return arrivals, speeds, unstoppable
 
 
 @compiled

@@ -1,7 +1,6 @@
 """A specification → its runs → their artefacts."""
 
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -10,27 +9,16 @@ from typing import Any
 import numpy as np
 from safetensors.numpy import save
 
-from upswing import loop
-from upswing.learners import Beginning, Learner, create
+from upswing.catching import highest_stoppable_speed
+from upswing.evaluation import evaluate
+from upswing.loop import Trajectory, empty_trajectory
 from upswing.measures import Measures, in_windows, measure
-from upswing.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.setting import Setting, prepare
 from upswing.spec import Spec
 from upswing.store.files import written
 from upswing.store.provenance import metadata, provenance
 from upswing.store.recording import write_recording
-from upswing.store.trajectory import kept_steps, write_trajectory, write_windows
-from upswing.tasks import KINDS, start
-from upswing.tiles import tiles_for
-
-REWARD_SCALES = {"half_turn": 4.0, "radians": 1.0, "degrees": (180 / np.pi) ** 2}
-"""From rad² into the unit of R3; half_turn reads 90° as π, so an angle is twice its radians."""
-
-RESETS = {
-    "fallen": loop.RESET_FALLEN,
-    "terminal": loop.RESET_TERMINAL,
-    "reset": loop.RESET_START,
-}
-HAND_OVERS = {"owner": loop.OWNER, "own": loop.OWN, "terminal": loop.TERMINAL}
+from upswing.store.trajectory import digest, kept_steps, write_trajectory, write_windows
 
 
 class RunsFailed(RuntimeError):
@@ -41,8 +29,8 @@ class RunsFailed(RuntimeError):
 class Run:
     """A run that was learned."""
 
-    trajectory: loop.Trajectory
-    learner: Learner
+    trajectory: Trajectory
+    setting: Setting
     seconds: float  # spent learning
 
 
@@ -52,7 +40,7 @@ def train(spec: Spec, results: Path) -> None:
     A run that fails does not stop the others; ``RunsFailed`` then names it at the end.
     """
     failed = []
-    trajectory = loop.empty_trajectory(spec.task.steps)
+    trajectory = empty_trajectory(spec.task.steps)
     for seed in spec.seeds:
         one = spec.of_seed(seed)
         print(f"{one.run(seed)}\n  to repeat it: {one.command(str(results))}", flush=True)
@@ -69,85 +57,38 @@ def train(spec: Spec, results: Path) -> None:
         raise RunsFailed("\n".join(failed))
 
 
-def learn(spec: Spec, seed: int, trajectory: loop.Trajectory) -> Run:
+def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
     """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
-    learner, advance = prepare(spec, seed, trajectory)
-    advance(0, 0)  # compiles, or fetches what was compiled
+    setting = prepare(spec, seed)
+    setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
     begin = perf_counter()
-    advance(0, spec.task.steps)
+    setting.advance(trajectory, 0, spec.task.steps)
     seconds = perf_counter() - begin
     if spec.alpha is None:
         trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
-    return Run(trajectory, learner, seconds)
-
-
-def prepare(
-    spec: Spec, seed: int, trajectory: loop.Trajectory
-) -> tuple[Learner, Callable[[int, int], None]]:
-    """A fresh learner, and a function that lets it learn from one step up to another.
-
-    All random numbers come from the seed alone, in three streams: actions, starts, first weights.
-    So runs of different cells with the same seed see the same draws.
-    """
-    readings, settings = spec.readings, spec.architecture
-    actions, starts, weights = (
-        np.random.default_rng(stream) for stream in np.random.SeedSequence(seed).spawn(3)
-    )
-    body = Pendulum(
-        orientation=FROM_UPRIGHT if readings.zero_of_angle == "upright" else FROM_HANGING
-    )
-    task = KINDS[spec.task.kind](readings)
-    tiles = tiles_for(spec.task.kind, settings.modular, readings)
-    scale = REWARD_SCALES[readings.reward_unit]
-    learner = create(
-        settings.learner,
-        Beginning(
-            tiles=tiles,
-            hidden=settings.hidden,
-            behaviour=settings.behaviour or "",
-            readings=readings,
-            lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
-            weights=weights,
-        ),
-    )
-    printed_error = settings.learner == "networks" and readings.error_sign == "printed"
-    rule = loop.Rule(
-        step_size=0.0 if spec.alpha is None else float(spec.alpha),
-        discount=float(spec.discount),
-        bootstrap_sign=-1.0 if printed_error else 1.0,
-        reward_scale=scale,
-        epsilon=float(spec.epsilon) if learner.epsilon is None else learner.epsilon,
-        random_ties=readings.ties == "random",
-        reset=RESETS[readings.reset],
-        hand_over=HAND_OVERS[readings.hand_over],
-    )
-    open_ = loop.nothing_open(tiles.modules)
-    state = loop.State(*start(task, starts), 0.0, 0.0)
-
-    def advance(first: int, last: int) -> None:
-        nonlocal state
-        state = loop.learn(
-            body, task, tiles, learner.stepped, rule, state, open_, actions, starts,
-            trajectory, first, last,
-        )  # fmt: skip
-
-    return learner, advance
+    return Run(trajectory, setting, seconds)
 
 
 def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     """Write the four files of a run; returns its measures."""
-    measures = measure(run.trajectory, spec.task.kind)
+    too_fast = highest_stoppable_speed(run.setting.body)
+    measures = measure(run.trajectory, spec.task.kind, too_fast)
+    windows = in_windows(run.trajectory)
+    kept = kept_steps(run.trajectory, measures.first_stable_step)
+    learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
     place = results / "runs" / spec.run(seed)
     content = {"spec": spec.canonical(), "run": spec.run(seed)}
     outcome: dict[str, Any] = {
         **measures._asdict(),
+        **evaluate(run.setting, spec.task.kind, seed)._asdict(),
+        "digest": digest(run.trajectory, kept, windows),
         "seconds": run.seconds,
         "steps_per_second": measures.steps / run.seconds,
     }
     write_trajectory(
         place.with_name(f"{place.name}.trajectory.parquet"),
         run.trajectory,
-        kept_steps(run.trajectory, measures.first_stable_step),
+        kept,
         metadata(**content),
     )
     write_recording(
@@ -158,11 +99,10 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
         _properties(spec, seed, outcome),
     )
     with written(place.with_name(f"{place.name}.weights.safetensors")) as beside:
-        learned = {name: np.ascontiguousarray(a) for name, a in run.learner.learned.items()}
         beside.write_bytes(save(learned, metadata={"spec": spec.canonical()}))
     write_windows(
         place.with_name(f"{place.name}.windows.parquet"),
-        in_windows(run.trajectory),
+        windows,
         metadata(**content, outcome=outcome),
     )
     return measures

@@ -1,6 +1,7 @@
 """A run in Parquet: its trajectory, whole where it is looked at closely, and its windows."""
 
 import json
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +61,14 @@ def kept_steps(trajectory: Trajectory, first_stable_step: int | None) -> NDArray
         kept[max(0, reset - WHOLE_AROUND_FALL) : reset + WHOLE_AROUND_FALL] = True
     kept[resets] = True
     return np.flatnonzero(kept)
+
+
+def digest(trajectory: Trajectory, steps: NDArray[np.int64], windows: Windows) -> str:
+    """What tells two runs apart: a checksum of the stored ``steps`` and of the windows of all steps."""
+    checksum = sha256()
+    for column in (*(column[steps] for column in trajectory), *windows):
+        checksum.update(np.ascontiguousarray(column).tobytes())
+    return checksum.hexdigest()[:16]
 
 
 def write_trajectory(

@@ -1,0 +1,57 @@
+"""What a learner would do without exploring: a greedy evaluation from a fixed grid of starts."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from upswing import loop
+from upswing.measures import UPRIGHT
+from upswing.setting import Setting, streams
+
+STARTS = {
+    "balancing": np.radians(np.linspace(-20, 20, 9)),
+    "full-control": np.linspace(-np.pi, np.pi, 16, endpoint=False),
+}
+"""The angles it starts from, at rest [rad]."""
+
+STEPS = {"balancing": 2_000, "full-control": 4_000}
+"""How long each start is followed: 10 s and 20 s [steps]."""
+
+JUDGED = 1_000
+"""Of full control, so many last steps are judged: 5 s [steps]."""
+
+
+class Greedy(NamedTuple):
+    """What the greedy policy came to."""
+
+    greedy_success_share: float  # of the starts: without a fall, or upright ≥ 90 % at the end
+    greedy_upright_share: float  # of the judged steps (balancing: all) of all starts
+
+
+def evaluate(setting: Setting, kind: str, seed: int) -> Greedy:
+    """Follow the policy that was learned, with ε = 0 and α = 0, from every start of the grid.
+
+    What was learned stays as it is. A control keeps its own ε: being random is what it does.
+    """
+    *_, stream = streams(seed)
+    epsilon = 0.0 if setting.learner.epsilon is None else setting.learner.epsilon
+    rule = setting.rule._replace(step_size=0.0, epsilon=epsilon)
+    steps, successes, upright = STEPS[kind], 0, 0.0
+    trajectory = loop.empty_trajectory(steps)
+    for angle in STARTS[kind]:
+        episode = replace(
+            setting,
+            rule=rule,
+            state=loop.State(float(angle), 0.0, 0.0, 0.0),
+            left_open=loop.nothing_open(setting.tiles.modules),
+            actions=stream,
+            starts=stream,
+        )
+        episode.advance(trajectory, 0, steps)
+        first = 0 if kind == "balancing" else steps - JUDGED
+        # |φ| ≤ 20° on any turn (R4 `unbounded`) is a large cosine.
+        share = float(np.mean(np.cos(trajectory.angle[first:]) >= np.cos(UPRIGHT)))
+        upright += share
+        successes += not trajectory.reset.any() if kind == "balancing" else share >= 0.9
+    return Greedy(successes / len(STARTS[kind]), upright / len(STARTS[kind]))

@@ -1,0 +1,224 @@
+"""Numbers over runs → estimates with intervals. The unit is one run.
+
+From scipy where it has them. Every interval is one of 95 % for the estimate, unlike the spread, the
+5th to 95th percentile of the runs themselves. Bootstraps are seeded, so that the same runs give the
+same interval.
+"""
+
+from collections.abc import Callable, Sequence
+from math import ceil, floor, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+CONFIDENCE = 0.95
+RESAMPLES = 10_000
+SEED = 20_261_122
+"""The bootstrap's own seed; any will do, as long as it stays."""
+
+Real = NDArray[np.float64]
+
+
+class Estimate(NamedTuple):
+    """An estimate, its interval, and how it was reached."""
+
+    value: float
+    low: float
+    high: float
+    n: int  # runs, or pairs of runs
+    method: str
+    resampled: Real  # the bootstrap distribution, shape (resamples,); empty where there is none
+
+    def p_value(self, threshold: float, at_least: bool) -> float:
+        """How likely an estimate as favourable is if the truth just misses ``threshold``.
+
+        Of a share the exact binomial test; of a bootstrap the part of its distribution on the wrong
+        side of the threshold, never less than one in all resamples.
+        """
+        if len(self.resampled):
+            wrong = self.resampled < threshold if at_least else self.resampled > threshold
+            return float((1 + wrong.sum()) / (1 + len(self.resampled)))
+        if not self.n:
+            return 1.0
+        side = "greater" if at_least else "less"
+        # A tie counts half; half a success is none where successes speak for the claim.
+        successes = (floor if at_least else ceil)(round(self.value * self.n, 9))
+        return float(stats.binomtest(successes, self.n, threshold, side).pvalue)
+
+
+NOTHING: Real = np.empty(0)
+
+
+def share(successes: int, n: int) -> Estimate:
+    """A share k of n with Wilson's interval; from 0 to 1 of no runs at all."""
+    if not n:
+        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+    interval = stats.binomtest(successes, n).proportion_ci(CONFIDENCE, method="wilson")
+    return Estimate(
+        successes / n, float(interval.low), float(interval.high), n, "share, Wilson", NOTHING
+    )
+
+
+def mean(values: Sequence[float]) -> Estimate:
+    """The mean; bootstrap, percentiles."""
+    return bootstrapped("mean", lambda x: x.mean(axis=-1), [values])
+
+
+def median(values: Sequence[float]) -> Estimate:
+    """The median; bootstrap, percentiles."""
+    return bootstrapped("median", lambda x: np.median(x, axis=-1), [values])
+
+
+def interquartile_mean(values: Sequence[float]) -> Estimate:
+    """The mean of the middle half; bootstrap, percentiles."""
+    return bootstrapped("interquartile mean", lambda x: stats.trim_mean(x, 0.25, axis=-1), [values])
+
+
+LOCATIONS: dict[str, Callable[[Sequence[float]], Estimate]] = {
+    "mean": mean,
+    "median": median,
+    "interquartile_mean": interquartile_mean,
+}
+
+
+def ratio_of_means(x: Sequence[float], y: Sequence[float]) -> Estimate:
+    """mean(x) / mean(y) of paired runs; bootstrap of the pairs, percentiles."""
+
+    def ratio(a: Real, b: Real) -> Real:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(a.mean(axis=-1) / b.mean(axis=-1))
+
+    return bootstrapped("ratio of means, paired", ratio, [x, y])
+
+
+def difference_of_means(x: Sequence[float], y: Sequence[float]) -> Estimate:
+    """mean(x) − mean(y) of paired runs; bootstrap of the pairs, percentiles."""
+    return bootstrapped(
+        "difference of means, paired", lambda a, b: a.mean(axis=-1) - b.mean(axis=-1), [x, y]
+    )
+
+
+def probability_greater(x: Sequence[float], y: Sequence[float]) -> Estimate:
+    """P(X > Y) + ½ P(X = Y) of paired runs, with Wilson's interval.
+
+    A bootstrap would claim certainty where all pairs agree. A tie counts half, which makes Wilson's
+    interval wider than it need be.
+    """
+    if len(x) != len(y):
+        raise ValueError(f"paired samples differ in length: {len(x)}, {len(y)}")
+    if not len(x):
+        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+    a, b = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    value = float(((a > b) + 0.5 * (a == b)).mean())
+    low, high = wilson(value, len(a))
+    return Estimate(value, low, high, len(a), "P(X > Y), paired, Wilson", NOTHING)
+
+
+def wilson(value: float, n: int) -> tuple[float, float]:
+    """Wilson's interval for a share ``value`` of ``n``, which need not be a whole number of them."""
+    z = float(stats.norm.ppf((1 + CONFIDENCE) / 2))
+    middle = (value + z**2 / (2 * n)) / (1 + z**2 / n)
+    half = z * sqrt(value * (1 - value) / n + z**2 / (4 * n**2)) / (1 + z**2 / n)
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def range_of_means(groups: Sequence[Sequence[float]]) -> Estimate:
+    """The largest mean minus the smallest of paired groups; bootstrap of the pairs, percentiles.
+
+    Noise widens a range and never narrows it, so the interval errs on the side of a difference.
+    """
+
+    def spread(*samples: Real) -> Real:
+        means = np.stack([sample.mean(axis=-1) for sample in samples])
+        return np.asarray(means.max(axis=0) - means.min(axis=0))
+
+    return bootstrapped("range of means, paired", spread, groups)
+
+
+def bootstrapped(
+    name: str, statistic: Callable[..., Real], samples: Sequence[Sequence[float]]
+) -> Estimate:
+    """A statistic of paired samples, each of shape (n,), with a percentile bootstrap interval.
+
+    ``statistic`` takes one array for each sample, shape (..., n), and answers with shape (...).
+    """
+    arrays = [np.asarray(sample, dtype=float) for sample in samples]
+    n = len(arrays[0])
+    if any(len(array) != n for array in arrays):
+        raise ValueError(f"paired samples differ in length: {[len(array) for array in arrays]}")
+    if not n:
+        return Estimate(np.nan, -np.inf, np.inf, 0, "no runs", NOTHING)
+    chosen = np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
+    resampled = np.asarray(statistic(*(array[chosen] for array in arrays)))
+    tails = ((1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2)
+    low, high = np.quantile(resampled, tails)
+    value = float(statistic(*arrays))
+    method = f"{name}, bootstrap ({RESAMPLES:,} resamples, percentiles)"
+    return Estimate(value, float(low), float(high), n, method, resampled)
+
+
+def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Estimate:
+    """The share that got there by ``limit``: Kaplan–Meier, with a log-log interval.
+
+    Args:
+        times: when each run got there; None for a run that had not by ``horizon``, and is censored.
+        limit: the time asked about.
+        horizon: how long every run was watched.
+    """
+    n = len(times)
+    if not n:
+        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+    reached = sum(time is not None and time <= limit for time in times)
+    if reached in (0, n):  # the log-log interval has no width there; Wilson's has
+        return share(reached, n)._replace(method="Kaplan–Meier (Wilson at 0 and 1)")
+    survival = _survival(times, horizon)
+    interval = survival.confidence_interval(CONFIDENCE, method="log-log")
+    value, low, high = (
+        1 - float(curve.evaluate(limit)) for curve in (survival, interval.high, interval.low)
+    )
+    return Estimate(value, low, high, n, "Kaplan–Meier, log-log", NOTHING)
+
+
+def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, float, float]:
+    """The median time and its interval by Kaplan–Meier; infinite where half never got there."""
+    if not any(time is not None for time in times):
+        return np.inf, np.inf, np.inf
+    survival = _survival(times, horizon)
+    interval = survival.confidence_interval(CONFIDENCE, method="log-log")
+
+    def halved(curve: Any) -> float:
+        below = np.flatnonzero(np.asarray(curve.probabilities) <= 0.5)
+        return float(curve.quantiles[below[0]]) if len(below) else np.inf
+
+    return halved(survival), halved(interval.low), halved(interval.high)
+
+
+def _survival(times: Sequence[float | None], horizon: float) -> Any:
+    """Scipy's survival function of times that are censored at ``horizon``."""
+    data = stats.CensoredData(
+        uncensored=[time for time in times if time is not None],
+        right=[horizon for time in times if time is None],
+    )
+    return stats.ecdf(data).sf
+
+
+def spread(values: Sequence[float]) -> tuple[float, float]:
+    """The 5th and the 95th percentile of runs: how they differ, not how sure an estimate is."""
+    known = np.asarray(values, dtype=float)
+    if not len(known):
+        return np.nan, np.nan
+    low, high = np.quantile(known, (0.05, 0.95))
+    return float(low), float(high)
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """P values adjusted for their number by Holm's step-down method, in their order."""
+    order = np.argsort(p_values, kind="stable")
+    adjusted = np.empty(len(p_values))
+    largest = 0.0
+    for rank, index in enumerate(order):
+        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[index]))
+        adjusted[index] = largest
+    return [float(value) for value in adjusted]
