@@ -2,6 +2,7 @@
 
 from snakemake.exceptions import WorkflowError
 
+from upswing.claims import canonical_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES
 from upswing.fingerprint import fingerprint

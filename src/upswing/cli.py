@@ -12,20 +12,20 @@ from upswing.problems import BadInput
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed."""
+    """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed or has changed."""
     options = _parser().parse_args(arguments)
     # Jobs run side by side; each computes in one thread.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        options.verb(options)
+        code: int | None = options.verb(options)
     except BadInput as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 2
     except (OSError, RuntimeError) as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 1
-    return 0
+    return code or 0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -50,6 +50,19 @@ def _parser() -> argparse.ArgumentParser:
     added = verb("train", _train, "Learn the runs of specifications and store them.")
     added.add_argument("spec", nargs="+", help="a specification in JSON, as a run's log shows it")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
+
+    added = verbs.add_parser(
+        "verdicts", help="Judge every claim and print the verdicts.", parents=[results],
+        description="Judge every claim by the runs, write tables/verdicts.parquet and print it.",
+    )  # fmt: skip
+    added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
+    added.set_defaults(verb=_verdicts)
+
+    summary = "Compare two folders of results: verdicts, estimates and runs that differ."
+    added = verbs.add_parser("compare", help=summary, description=summary)
+    added.add_argument("a", type=Path)
+    added.add_argument("b", type=Path)
+    added.set_defaults(verb=_compare)
 
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
@@ -97,6 +110,23 @@ def _tables(options: argparse.Namespace) -> None:
     from upswing.tables import write_tables
 
     write_tables(options.results, Matrix(read_study(options.results)))
+
+
+def _verdicts(options: argparse.Namespace) -> None:
+    from upswing.claims import load_claims
+    from upswing.terminal import print_verdicts
+    from upswing.verdicts import write_verdicts
+
+    print_verdicts(write_verdicts(options.results, load_claims(options.claims)))
+
+
+def _compare(options: argparse.Namespace) -> int:
+    from upswing.compare import compare
+    from upswing.terminal import print_comparison
+
+    comparison = compare(options.a, options.b)
+    print_comparison(comparison)
+    return 1 if comparison.changed_verdicts else 0
 
 
 def _figure(options: argparse.Namespace) -> None:

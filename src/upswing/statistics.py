@@ -6,7 +6,8 @@ same interval.
 """
 
 from collections.abc import Callable, Sequence
-from math import ceil, floor, sqrt
+from functools import cache
+from math import ceil, floor, hypot, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,11 @@ SEED = 20_261_122
 """The bootstrap's own seed; any will do, as long as it stays."""
 
 Real = NDArray[np.float64]
+Sample = Sequence[float] | NDArray[Any]
+"""One value for each run, shape (n,)."""
+
+
+Tail = Callable[[float, bool], float]
 
 
 class Estimate(NamedTuple):
@@ -29,61 +35,98 @@ class Estimate(NamedTuple):
     high: float
     n: int  # runs, or pairs of runs
     method: str
-    resampled: Real  # the bootstrap distribution, shape (resamples,); empty where there is none
+    p_value: Tail
+    """How likely an estimate as favourable is if the truth just misses a threshold, given that and
+    whether the claim is to be at least the threshold."""
 
-    def p_value(self, threshold: float, at_least: bool) -> float:
-        """How likely an estimate as favourable is if the truth just misses ``threshold``.
 
-        Of a share the exact binomial test; of a bootstrap the part of its distribution on the wrong
-        side of the threshold, never less than one in all resamples.
-        """
-        if len(self.resampled):
-            wrong = self.resampled < threshold if at_least else self.resampled > threshold
-            return float((1 + wrong.sum()) / (1 + len(self.resampled)))
-        if not self.n:
-            return 1.0
+def binomial_tail(value: float, n: int) -> Tail:
+    """The exact binomial test of a share ``value`` of ``n``."""
+
+    def p_value(threshold: float, at_least: bool) -> float:
+        # Half a success, of a tie, is none where successes speak for the claim.
+        successes = (floor if at_least else ceil)(round(value * n, 9))
         side = "greater" if at_least else "less"
-        # A tie counts half; half a success is none where successes speak for the claim.
-        successes = (floor if at_least else ceil)(round(self.value * self.n, 9))
-        return float(stats.binomtest(successes, self.n, threshold, side).pvalue)
+        return float(stats.binomtest(successes, n, threshold, side).pvalue)
+
+    return p_value
 
 
-NOTHING: Real = np.empty(0)
+def bootstrap_tail(resampled: Real) -> Tail:
+    """The part of a bootstrap distribution, shape (resamples,), on the wrong side of a threshold."""
+
+    def p_value(threshold: float, at_least: bool) -> float:
+        wrong = resampled < threshold if at_least else resampled > threshold
+        return float((1 + wrong.sum()) / (1 + len(resampled)))
+
+    return p_value
+
+
+def normal_tail(value: float, low: float, high: float) -> Tail:
+    """As if the interval were that of a normal distribution."""
+
+    def p_value(threshold: float, at_least: bool) -> float:
+        deviation = (high - low) / (2 * _z())
+        distance = (value - threshold) if at_least else (threshold - value)
+        return float(stats.norm.sf(distance / deviation))
+
+    return p_value
+
+
+def no_runs(low: float = 0.0, high: float = 1.0) -> Estimate:
+    """What no runs tell: nothing."""
+    return Estimate(np.nan, low, high, 0, "no runs", lambda _threshold, _at_least: 1.0)
 
 
 def share(successes: int, n: int) -> Estimate:
     """A share k of n with Wilson's interval; from 0 to 1 of no runs at all."""
     if not n:
-        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+        return no_runs()
     interval = stats.binomtest(successes, n).proportion_ci(CONFIDENCE, method="wilson")
-    return Estimate(
-        successes / n, float(interval.low), float(interval.high), n, "share, Wilson", NOTHING
-    )
+    value = successes / n
+    tail = binomial_tail(value, n)
+    return Estimate(value, float(interval.low), float(interval.high), n, "share, Wilson", tail)
 
 
-def mean(values: Sequence[float]) -> Estimate:
+def difference_of_shares(x: Sequence[bool], y: Sequence[bool]) -> Estimate:
+    """The share of x minus that of y, with Newcombe's interval from Wilson's of both.
+
+    It takes the runs as if they were not paired, which makes it wider than it need be.
+    """
+    if not len(x) or not len(y):
+        return no_runs(-1.0, 1.0)
+    one, other = share(sum(x), len(x)), share(sum(y), len(y))
+    value = one.value - other.value
+    low = value - hypot(one.value - one.low, other.high - other.value)
+    high = value + hypot(one.high - one.value, other.value - other.low)
+    tail = normal_tail(value, low, high)
+    n = min(len(x), len(y))
+    return Estimate(value, low, high, n, "difference of shares, Newcombe", tail)
+
+
+def mean(values: Sample) -> Estimate:
     """The mean; bootstrap, percentiles."""
     return bootstrapped("mean", lambda x: x.mean(axis=-1), [values])
 
 
-def median(values: Sequence[float]) -> Estimate:
+def median(values: Sample) -> Estimate:
     """The median; bootstrap, percentiles."""
     return bootstrapped("median", lambda x: np.median(x, axis=-1), [values])
 
 
-def interquartile_mean(values: Sequence[float]) -> Estimate:
+def interquartile_mean(values: Sample) -> Estimate:
     """The mean of the middle half; bootstrap, percentiles."""
     return bootstrapped("interquartile mean", lambda x: stats.trim_mean(x, 0.25, axis=-1), [values])
 
 
-LOCATIONS: dict[str, Callable[[Sequence[float]], Estimate]] = {
+LOCATIONS: dict[str, Callable[[Sample], Estimate]] = {
     "mean": mean,
     "median": median,
     "interquartile_mean": interquartile_mean,
 }
 
 
-def ratio_of_means(x: Sequence[float], y: Sequence[float]) -> Estimate:
+def ratio_of_means(x: Sample, y: Sample) -> Estimate:
     """mean(x) / mean(y) of paired runs; bootstrap of the pairs, percentiles."""
 
     def ratio(a: Real, b: Real) -> Real:
@@ -93,14 +136,14 @@ def ratio_of_means(x: Sequence[float], y: Sequence[float]) -> Estimate:
     return bootstrapped("ratio of means, paired", ratio, [x, y])
 
 
-def difference_of_means(x: Sequence[float], y: Sequence[float]) -> Estimate:
+def difference_of_means(x: Sample, y: Sample) -> Estimate:
     """mean(x) − mean(y) of paired runs; bootstrap of the pairs, percentiles."""
     return bootstrapped(
         "difference of means, paired", lambda a, b: a.mean(axis=-1) - b.mean(axis=-1), [x, y]
     )
 
 
-def probability_greater(x: Sequence[float], y: Sequence[float]) -> Estimate:
+def probability_greater(x: Sample, y: Sample) -> Estimate:
     """P(X > Y) + ½ P(X = Y) of paired runs, with Wilson's interval.
 
     A bootstrap would claim certainty where all pairs agree. A tie counts half, which makes Wilson's
@@ -109,22 +152,23 @@ def probability_greater(x: Sequence[float], y: Sequence[float]) -> Estimate:
     if len(x) != len(y):
         raise ValueError(f"paired samples differ in length: {len(x)}, {len(y)}")
     if not len(x):
-        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+        return no_runs()
     a, b = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     value = float(((a > b) + 0.5 * (a == b)).mean())
     low, high = wilson(value, len(a))
-    return Estimate(value, low, high, len(a), "P(X > Y), paired, Wilson", NOTHING)
+    tail = binomial_tail(value, len(a))
+    return Estimate(value, low, high, len(a), "P(X > Y), paired, Wilson", tail)
 
 
 def wilson(value: float, n: int) -> tuple[float, float]:
     """Wilson's interval for a share ``value`` of ``n``, which need not be a whole number of them."""
-    z = float(stats.norm.ppf((1 + CONFIDENCE) / 2))
+    z = _z()
     middle = (value + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z * sqrt(value * (1 - value) / n + z**2 / (4 * n**2)) / (1 + z**2 / n)
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def range_of_means(groups: Sequence[Sequence[float]]) -> Estimate:
+def range_of_means(groups: Sequence[Sample]) -> Estimate:
     """The largest mean minus the smallest of paired groups; bootstrap of the pairs, percentiles.
 
     Noise widens a range and never narrows it, so the interval errs on the side of a difference.
@@ -137,9 +181,7 @@ def range_of_means(groups: Sequence[Sequence[float]]) -> Estimate:
     return bootstrapped("range of means, paired", spread, groups)
 
 
-def bootstrapped(
-    name: str, statistic: Callable[..., Real], samples: Sequence[Sequence[float]]
-) -> Estimate:
+def bootstrapped(name: str, statistic: Callable[..., Real], samples: Sequence[Sample]) -> Estimate:
     """A statistic of paired samples, each of shape (n,), with a percentile bootstrap interval.
 
     ``statistic`` takes one array for each sample, shape (..., n), and answers with shape (...).
@@ -149,14 +191,19 @@ def bootstrapped(
     if any(len(array) != n for array in arrays):
         raise ValueError(f"paired samples differ in length: {[len(array) for array in arrays]}")
     if not n:
-        return Estimate(np.nan, -np.inf, np.inf, 0, "no runs", NOTHING)
-    chosen = np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
-    resampled = np.asarray(statistic(*(array[chosen] for array in arrays)))
+        return no_runs(-np.inf, np.inf)
+    resampled = np.asarray(statistic(*(array[_resamples(n)] for array in arrays)))
     tails = ((1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2)
     low, high = np.quantile(resampled, tails)
     value = float(statistic(*arrays))
     method = f"{name}, bootstrap ({RESAMPLES:,} resamples, percentiles)"
-    return Estimate(value, float(low), float(high), n, method, resampled)
+    return Estimate(value, float(low), float(high), n, method, bootstrap_tail(resampled))
+
+
+@cache
+def _resamples(n: int) -> NDArray[np.int64]:
+    """Which runs each resample draws, shape (resamples, n); the same for all samples of n."""
+    return np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
 
 
 def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Estimate:
@@ -169,7 +216,7 @@ def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Est
     """
     n = len(times)
     if not n:
-        return Estimate(np.nan, 0.0, 1.0, 0, "no runs", NOTHING)
+        return no_runs()
     reached = sum(time is not None and time <= limit for time in times)
     if reached in (0, n):  # the log-log interval has no width there; Wilson's has
         return share(reached, n)._replace(method="Kaplan–Meier (Wilson at 0 and 1)")
@@ -178,7 +225,13 @@ def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Est
     value, low, high = (
         1 - float(curve.evaluate(limit)) for curve in (survival, interval.high, interval.low)
     )
-    return Estimate(value, low, high, n, "Kaplan–Meier, log-log", NOTHING)
+    tail = binomial_tail(reached / n, n)  # nobody is censored before the limit
+    return Estimate(value, low, high, n, "Kaplan–Meier, log-log", tail)
+
+
+def _z() -> float:
+    """The quantile of the normal distribution for an interval of ``CONFIDENCE``."""
+    return float(stats.norm.ppf((1 + CONFIDENCE) / 2))
 
 
 def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, float, float]:
@@ -204,7 +257,7 @@ def _survival(times: Sequence[float | None], horizon: float) -> Any:
     return stats.ecdf(data).sf
 
 
-def spread(values: Sequence[float]) -> tuple[float, float]:
+def spread(values: Sample) -> tuple[float, float]:
     """The 5th and the 95th percentile of runs: how they differ, not how sure an estimate is."""
     known = np.asarray(values, dtype=float)
     if not len(known):
@@ -213,7 +266,7 @@ def spread(values: Sequence[float]) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def holm(p_values: Sequence[float]) -> list[float]:
+def holm(p_values: Sample) -> list[float]:
     """P values adjusted for their number by Holm's step-down method, in their order."""
     order = np.argsort(p_values, kind="stable")
     adjusted = np.empty(len(p_values))

@@ -7,6 +7,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from upswing import statistics
 from upswing.matrix import Matrix
 from upswing.problems import BadInput
 from upswing.spec import parse
@@ -17,6 +18,15 @@ from upswing.store.trajectory import read_metadata
 RUNS = "tables/runs.parquet"
 CELLS = "tables/cells.parquet"
 
+NULLABLE = {
+    "alpha": "float64",
+    "first_stable_step": "Int64",
+    "falls_after_stable": "Int64",
+    "arrival_speed": "float64",
+    "too_fast_share": "float64",
+}
+"""Columns that are empty for some runs."""
+
 MEASURES = (
     "falls",
     "falls_last_fifth",
@@ -24,7 +34,7 @@ MEASURES = (
     "above_horizontal_share",
     "mean_reward",
 )
-"""What a cell is summed up by: median and 5th and 95th percentile over its runs."""
+"""What a cell is summed up by."""
 
 
 def write_tables(results: Path, matrix: Matrix) -> None:
@@ -34,8 +44,8 @@ def write_tables(results: Path, matrix: Matrix) -> None:
         BadInput: runs are missing, or are not those of the matrix; it names them.
     """
     runs = collect_runs(results, matrix)
-    _write(results / RUNS, runs)
-    _write(results / CELLS, summarise(runs))
+    write_table(results / RUNS, runs)
+    write_table(results / CELLS, summarise(runs))
 
 
 def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
@@ -52,14 +62,16 @@ def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
                 rows.append(_row(found))
     if problems:
         raise BadInput(problems)
-    return pd.DataFrame(rows).astype({"first_stable_step": "Int64", "alpha": "float64"})
+    return pd.DataFrame(rows).astype(NULLABLE)
 
 
 def summarise(runs: pd.DataFrame) -> pd.DataFrame:
     """One row for each cell of ``runs``, in their order.
 
-    Of every measure the median and the 5th and 95th percentile over runs: the spread between runs,
-    not the uncertainty of an estimate. A run that never became stable counts as infinitely late.
+    Of every measure mean, median and interquartile mean, each with its 95 % interval (``_low``,
+    ``_high``): how sure the estimate is; and the 5th and 95th percentile of the runs (``_p05``,
+    ``_p95``): how they differ. The time to stability is Kaplan–Meier's, runs that never got there
+    being censored.
     """
     rows = []
     for (task, architecture, alpha), group in runs.groupby(
@@ -76,13 +88,19 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
             "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
             "runs_upright": int((group["upright_share"] >= 0.9).sum()),
         }
-        first = group["first_stable_step"].astype("Float64").fillna(float("inf"))
-        median = float(first.quantile(0.5, interpolation="higher"))
-        row["first_stable_step_median"] = None if median == float("inf") else median
+        times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
+        middle = statistics.median_time(times, float(row["steps"]))
+        for name, value in zip(("median", "low", "high"), middle, strict=True):
+            row[f"first_stable_step_{name}"] = value
         for measure in MEASURES:
-            row[f"{measure}_median"] = group[measure].median()
-            row[f"{measure}_p05"] = group[measure].quantile(0.05)
-            row[f"{measure}_p95"] = group[measure].quantile(0.95)
+            for location, estimated in statistics.LOCATIONS.items():
+                estimate = estimated(group[measure].to_numpy())
+                row[f"{measure}_{location}"] = estimate.value
+                row[f"{measure}_{location}_low"] = estimate.low
+                row[f"{measure}_{location}_high"] = estimate.high
+            row[f"{measure}_p05"], row[f"{measure}_p95"] = statistics.spread(
+                group[measure].to_numpy()
+            )
         row["steps_per_second_median"] = group["steps_per_second"].median()
         rows.append(row)
     return pd.DataFrame(rows)
@@ -105,7 +123,8 @@ def _row(found: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _write(path: Path, frame: pd.DataFrame) -> None:
+def write_table(path: Path, frame: pd.DataFrame) -> None:
+    """Write a table with its provenance."""
     table = pa.Table.from_pandas(frame, preserve_index=False)
     described = {**(table.schema.metadata or {}), **metadata()}
     with written(path) as beside:

@@ -6,6 +6,8 @@ rule report:
         f"{RESULTS}/study.json",
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/cells.parquet",
+        f"{RESULTS}/tables/verdicts.parquet",
+        f"{RESULTS}/tables/evidence.parquet",
         expand(
             f"{RESULTS}/figures/fig{{number:02d}}.{{kind}}",
             number=DRAWABLE,

@@ -29,3 +29,21 @@ rule tables:
         code=fingerprint("upswing.tables"),
     shell:
         "upswing tables {RESULTS:q} > {log:q} 2>&1"
+
+
+rule verdicts:
+    input:
+        f"{RESULTS}/study.json",
+        f"{RESULTS}/tables/runs.parquet",
+    output:
+        f"{RESULTS}/tables/verdicts.parquet",
+        f"{RESULTS}/tables/evidence.parquet",
+    log:
+        f"{RESULTS}/logs/verdicts.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/verdicts.tsv"
+    params:
+        claims=canonical_claims("config/claims.yaml"),
+        code=fingerprint("upswing.verdicts", packages=["scipy"]),
+    shell:
+        "upswing verdicts {RESULTS:q} > {log:q} 2>&1"

@@ -25,8 +25,8 @@ def draw(number: int, results: Path) -> None:
     """Draw a figure from ``results``: ``figures/figNN.svg``, ``.png`` and its words in ``.json``."""
     if number not in FIGURES:
         raise BadInput([f"figure: {number}: there are figures 5 to 11"])
-    from upswing.figures.data import Results
     from upswing.figures.style import save
+    from upswing.runs import Results
 
     drawing = import_module(_module(number)).draw(Results(results))
     place = results / "figures" / f"fig{number:02d}"

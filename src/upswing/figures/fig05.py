@@ -6,8 +6,8 @@ from upswing.figures.declaration import Declaration
 from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
 
 if TYPE_CHECKING:
-    from upswing.figures.data import Results
     from upswing.figures.panels import Drawing
+    from upswing.runs import Results
 
 CELL = "balancing/table/alpha-1"
 FIGURE = Declaration("A Q table balances, α = 1", "§4.5.1", ("C1", "C2"), (CELL,))

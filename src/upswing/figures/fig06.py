@@ -6,8 +6,8 @@ from upswing.figures.declaration import Declaration
 from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
 
 if TYPE_CHECKING:
-    from upswing.figures.data import Results
     from upswing.figures.panels import Drawing
+    from upswing.runs import Results
 
 CELLS = {
     f"balancing/table/alpha-{alpha}": f"α = {alpha}" for alpha in ("1", "0.75", "0.5", "0.001")

@@ -6,8 +6,8 @@ from upswing.figures.declaration import Declaration
 from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
 
 if TYPE_CHECKING:
-    from upswing.figures.data import Results
     from upswing.figures.panels import Drawing
+    from upswing.runs import Results
 
 CELL = "balancing/networks-5/alpha-1"
 TABLE = "balancing/table/alpha-1"

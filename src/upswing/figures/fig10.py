@@ -6,8 +6,8 @@ from upswing.figures.declaration import Declaration
 from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
 
 if TYPE_CHECKING:
-    from upswing.figures.data import Results
     from upswing.figures.panels import Drawing
+    from upswing.runs import Results
 
 CELL = "full-control/modular-table/alpha-0.001"
 TABLE = "full-control/table/alpha-0.001"

@@ -1,5 +1,6 @@
-"""Reading what a figure shows: the runs of a cell, their windows, and the median run."""
+"""Reading a folder of results: the runs of a cell, their windows, the worst, median and best run."""
 
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -9,17 +10,20 @@ import pandas as pd
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from upswing.config import Study
+from upswing.matrix import Matrix
 from upswing.problems import BadInput
-from upswing.spec import cell_id, parse
+from upswing.spec import Spec
+from upswing.study import read_study
 from upswing.tables import RUNS
 
 Real = NDArray[np.float64]
 
 ORDER_OF_RUNS = {
-    "balancing": ("falls", "falls_last_fifth", "seed"),
-    "full-control": ("upright_share", "mean_reward", "seed"),
+    "balancing": {"falls": False, "falls_last_fifth": False, "seed": True},
+    "full-control": {"upright_share": True, "mean_reward": True, "seed": True},
 }
-"""By what the runs of a task are ordered to find the median one; later names break ties."""
+"""By what the runs of a task are ordered, the worst first; later names break ties. Whether ascending."""
 
 
 class OneRun(NamedTuple):
@@ -54,30 +58,51 @@ class Results:
         self.folder = folder
 
     @cached_property
+    def study(self) -> Study:
+        """The study that these are the results of."""
+        return read_study(self.folder)
+
+    @cached_property
+    def cells(self) -> Mapping[str, Spec]:
+        """The cells of the study by their ids."""
+        return Matrix(self.study).cells
+
+    @cached_property
     def runs(self) -> pd.DataFrame:
-        """The table of runs, with a column ``cell``."""
+        """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
         path = self.folder / RUNS
         if not path.exists():
             raise BadInput([f"{path}: missing; `upswing tables {self.folder}` makes it"])
         frame = pd.read_parquet(path)
-        alphas = [None if np.isnan(alpha) else alpha for alpha in frame["alpha"]]
-        cells = zip(frame["task"], frame["architecture"], alphas, strict=True)
-        return frame.assign(cell=[cell_id(*names) for names in cells])
+        frame["cell"] = frame["run"].str.rsplit("/", n=1).str[0]
+        there = frame.groupby("cell")["seed"].agg(set).to_dict()
+        if incomplete := [
+            f"{path}: {cell}: {len(lost)} of {len(spec.seeds)} runs are missing; "
+            f"run the study again to make them"
+            for cell, spec in self.cells.items()
+            if (lost := set(spec.seeds) - there.get(cell, set()))
+        ]:
+            raise BadInput(incomplete)
+        return frame
 
     def cell(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs."""
-        rows = self.runs[self.runs["cell"] == cell]
-        if rows.empty:
-            raise BadInput([f"{self.folder / RUNS}: has no runs of {cell}"])
-        return rows
+        if cell not in self.cells:
+            raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
+        return self.runs[self.runs["cell"] == cell]
 
     def kind(self, cell: str) -> str:
         """The kind of a cell's task: "balancing" or "full-control"."""
-        return parse(self.cell(cell)["spec"].iloc[0]).task.kind
+        return self.cells[cell].task.kind
+
+    def in_order(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs, the worst first."""
+        order = ORDER_OF_RUNS[self.kind(cell)]
+        return self.cell(cell).sort_values(list(order), ascending=list(order.values()))
 
     def median_run(self, cell: str) -> OneRun:
-        """The run in the middle of a cell; of an even number, the lower of the two in the middle."""
-        ordered = self.cell(cell).sort_values(list(ORDER_OF_RUNS[self.kind(cell)]))
+        """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
+        ordered = self.in_order(cell)
         chosen = ordered.iloc[(len(ordered) - 1) // 2]
         return OneRun(
             chosen["run"],

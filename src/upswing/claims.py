@@ -1,0 +1,182 @@
+"""The claims C1–C16 as data: what is measured, from where on a claim holds, and the verdict.
+
+The claims themselves stand in ``config/claims.yaml``.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, Field, RootModel, ValidationError, model_validator
+
+from upswing.config import Strict, listed, read_yaml
+from upswing.problems import BadInput, explained
+from upswing.statistics import Estimate
+
+Verdict = Literal["reproduced", "partly", "inconclusive", "not reproduced", "not in this study"]
+WEAKEST_FIRST: tuple[Verdict, ...] = (
+    "not in this study",
+    "not reproduced",
+    "inconclusive",
+    "partly",
+    "reproduced",
+)
+
+Kind = Literal[
+    "share",
+    "share_by",
+    "share_identical",
+    "share_contracting",
+    "location",
+    "ratio_of_means",
+    "difference_of_means",
+    "difference_of_shares",
+    "probability_greater",
+    "range_of_means",
+]
+Cells = Annotated[tuple[str, ...], BeforeValidator(listed)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+
+CELLS_OF: dict[str, tuple[int, int]] = {
+    "share": (1, 1),
+    "share_by": (1, 1),
+    "share_identical": (2, 2),
+    "share_contracting": (0, 0),
+    "location": (1, 1),
+    "ratio_of_means": (2, 2),
+    "difference_of_means": (2, 2),
+    "difference_of_shares": (2, 2),
+    "probability_greater": (2, 2),
+    "range_of_means": (2, 9),
+}
+"""How many cells each kind compares, at least and at most."""
+
+WITHOUT_MEASURE = ("share", "share_identical", "share_contracting", "difference_of_shares")
+
+
+class Bound(Strict):
+    """A condition on a measure of a run; a measure that is not there fulfils none."""
+
+    at_least: Number | None = None
+    at_most: Number | None = None
+    below: Number | None = None
+
+    def __call__(self, value: float) -> bool:
+        """Whether ``value`` fulfils the condition."""
+        return (
+            value == value  # not NaN
+            and (self.at_least is None or value >= self.at_least)
+            and (self.at_most is None or value <= self.at_most)
+            and (self.below is None or value < self.below)
+        )
+
+
+class Part(Strict):
+    """One thing that a claim says, as a comparison with a threshold."""
+
+    says: str
+    kind: Kind
+    because: str
+    measure: str | None = None
+    cells: Cells = ()
+    each: Cells = ()  # the part once for each of these cells
+    each_pair: Annotated[tuple[Cells, ...], BeforeValidator(listed)] = ()  # … of these pairs
+    where: dict[str, Bound] = Field(default_factory=dict)  # what a run must fulfil to be counted
+    among: dict[str, Bound] = Field(default_factory=dict)  # which runs are looked at, of all
+    statistic: Literal["mean", "median", "interquartile_mean"] = "mean"
+    limit: int | None = None  # of `share_by` [steps]
+    at_least: Number | None = None
+    at_most: Number | None = None
+    partly: Number
+    only_if: dict[str, str] = Field(
+        default_factory=dict
+    )  # readings under which the part is asked at all
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if (self.at_least is None) == (self.at_most is None):
+            raise ValueError("write either `at_least` or `at_most`")
+        weaker = self.partly <= self.threshold if self.is_lower else self.partly >= self.threshold
+        if not weaker:
+            raise ValueError("`partly` must be the weaker of the two thresholds")
+        fewest, most = CELLS_OF[self.kind]
+        for cells in self.comparisons:
+            if not fewest <= len(cells) <= most:
+                raise ValueError(f"{self.kind} compares {fewest} to {most} cells, not {len(cells)}")
+        if (self.measure is None) != (self.kind in WITHOUT_MEASURE):
+            raise ValueError(f"`measure` does not go with {self.kind}, or is missing")
+        if bool(self.where) != (self.kind in ("share", "difference_of_shares")):
+            raise ValueError("`where` goes with share and difference_of_shares, always")
+        if (self.limit is not None) != (self.kind == "share_by"):
+            raise ValueError("`limit` goes with share_by, always")
+        return self
+
+    @property
+    def is_lower(self) -> bool:
+        """Whether the threshold is a lower one."""
+        return self.at_least is not None
+
+    @property
+    def threshold(self) -> float:
+        """From where on the part holds."""
+        return float(self.at_least if self.at_least is not None else self.at_most or 0.0)
+
+    @property
+    def comparisons(self) -> list[tuple[str, ...]]:
+        """The cells of each comparison that the part stands for."""
+        if self.each_pair:
+            return list(self.each_pair)
+        return [(cell,) for cell in self.each] or [self.cells]
+
+    @property
+    def threshold_text(self) -> str:
+        """The thresholds as a reader would write them."""
+        sign = "≥" if self.is_lower else "≤"
+        return f"{sign} {self.threshold:g} (partly {sign} {self.partly:g})"
+
+    def verdict(self, estimate: Estimate) -> Verdict:
+        """What the interval of an estimate says of this part; nothing else is asked."""
+        sign = 1 if self.is_lower else -1
+        worst, best = sorted((sign * estimate.low, sign * estimate.high))
+        if not estimate.n:
+            return "inconclusive"
+        if worst >= sign * self.threshold:
+            return "reproduced"
+        if worst >= sign * self.partly:
+            return "partly"
+        if best < sign * self.partly:
+            return "not reproduced"
+        return "inconclusive"
+
+
+class Claim(Strict):
+    """A claim of the thesis."""
+
+    statement: str
+    section: str
+    figure: int | None
+    cell: str | None  # the cell whose worst, median and best run show it
+    parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
+
+
+class Claims(RootModel[dict[str, Claim]]):
+    """All claims by their ids."""
+
+
+def load_claims(path: Path) -> Mapping[str, Claim]:
+    """The claims written in a YAML file; ``BadInput`` with all its problems otherwise."""
+    content: dict[str, Any] = read_yaml(path)
+    try:
+        return Claims.model_validate(content).root
+    except ValidationError as error:
+        raise BadInput(explained(Claims, error, lambda _: str(path))) from None
+
+
+def canonical_claims(path: str) -> str:
+    """The claims of a file as one line: the same text for the same meaning."""
+    return Claims(dict(load_claims(Path(path)))).model_dump_json()
+
+
+def weakest(verdicts: list[Verdict]) -> Verdict:
+    """The verdict of a claim with such parts."""
+    return min(verdicts, key=WEAKEST_FIRST.index)

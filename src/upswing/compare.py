@@ -1,0 +1,71 @@
+"""Two folders of results (two commits, two machines): what came out differently."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import pandas as pd
+
+from upswing.problems import BadInput
+from upswing.tables import RUNS
+from upswing.verdicts import EVIDENCE, VERDICTS
+
+
+class Comparison(NamedTuple):
+    """What differs between two folders, A and B."""
+
+    changed_verdicts: list[tuple[str, str, str]]  # claim, verdict in A, verdict in B
+    parted_estimates: list[
+        tuple[str, str, float, float]
+    ]  # claim, what, estimates outside each other
+    changed_runs: list[str]  # runs of both that are not identical
+    only_in_a: list[str]  # runs
+    only_in_b: list[str]
+    common_runs: int
+
+
+def compare(a: Path, b: Path) -> Comparison:
+    """What differs between the results in ``a`` and in ``b``.
+
+    A verdict that only one of them has counts as changed. An estimate has parted if it lies outside
+    the other's interval, either way round.
+    """
+    verdicts_a, verdicts_b = (_read(folder, VERDICTS).set_index("claim") for folder in (a, b))
+    claims = [*verdicts_a.index, *verdicts_b.index.difference(verdicts_a.index)]
+    changed = []
+    for claim in claims:
+        before, after = (
+            str(verdicts.at[claim, "verdict"]) if claim in verdicts.index else "none"
+            for verdicts in (verdicts_a, verdicts_b)
+        )
+        if before != after:
+            changed.append((str(claim), before, after))
+    key = ["claim", "measure", "cells", "threshold"]
+    both = _read(a, EVIDENCE).merge(_read(b, EVIDENCE), on=key, suffixes=("_a", "_b"))
+    outside = (
+        (both["estimate_a"] < both["low_b"])
+        | (both["estimate_a"] > both["high_b"])
+        | (both["estimate_b"] < both["low_a"])
+        | (both["estimate_b"] > both["high_a"])
+    )
+    parted = [
+        (row["claim"], f"{row['measure']} of {row['cells']}", row["estimate_a"], row["estimate_b"])
+        for row in both[outside].to_dict("records")
+    ]
+    runs_a, runs_b = (_read(folder, RUNS).set_index("run")["digest"] for folder in (a, b))
+    common = runs_a.index.intersection(runs_b.index)
+    differ = runs_a[common] != runs_b[common]
+    return Comparison(
+        changed_verdicts=changed,
+        parted_estimates=parted,
+        changed_runs=list(common[differ]),
+        only_in_a=list(runs_a.index.difference(common)),
+        only_in_b=list(runs_b.index.difference(common)),
+        common_runs=len(common),
+    )
+
+
+def _read(folder: Path, table: str) -> pd.DataFrame:
+    path = folder / table
+    if not path.exists():
+        raise BadInput([f"{path}: missing; run the study of that folder first"])
+    return pd.read_parquet(path)

@@ -1,0 +1,63 @@
+"""Tables for the terminal."""
+
+from collections.abc import Sequence
+
+import pandas as pd
+from rich.console import Console
+from rich.table import Table
+
+from upswing.compare import Comparison
+
+STYLES = {
+    "reproduced": "green",
+    "partly": "yellow",
+    "inconclusive": "magenta",
+    "not reproduced": "red",
+    "not in this study": "dim",
+}
+SHOWN = 10
+"""Of a long list of runs, so many are named."""
+
+
+def print_verdicts(verdicts: pd.DataFrame) -> None:
+    """Print one row for each claim."""
+    table = Table(
+        "", "claim", "verdict", "estimate [95 %]", "threshold", "n", "by", show_lines=True
+    )
+    for row in verdicts.to_dict("records"):
+        style = STYLES[row["verdict"]]
+        table.add_row(
+            row["claim"],
+            row["statement"],
+            f"[{style}]{row['verdict']}[/{style}]",
+            rf"{row['estimate']:.3g} \[{row['low']:.3g}, {row['high']:.3g}]",
+            row["threshold"],
+            str(row["n"]),
+            row["measure"],
+        )
+    Console().print(table)
+
+
+def print_comparison(comparison: Comparison) -> None:
+    """Print what differs between two folders."""
+    console = Console(highlight=False)
+    for claim, before, after in comparison.changed_verdicts:
+        console.print(f"{claim}: {before} → {after}")
+    if not comparison.changed_verdicts:
+        console.print("every verdict is the same")
+    for claim, what, one, other in comparison.parted_estimates:
+        console.print(f"{claim}: {what}: {one:.4g} → {other:.4g}, outside each other's intervals")
+    changed = len(comparison.changed_runs)
+    console.print(f"{changed} of {comparison.common_runs} runs that both have are not identical")
+    _name(console, comparison.changed_runs)
+    for side, runs in (("first", comparison.only_in_a), ("second", comparison.only_in_b)):
+        if runs:
+            console.print(f"{len(runs)} runs are only in the {side}")
+            _name(console, runs)
+
+
+def _name(console: Console, runs: Sequence[str]) -> None:
+    for run in runs[:SHOWN]:
+        console.print(f"  {run}")
+    if len(runs) > SHOWN:
+        console.print(f"  … and {len(runs) - SHOWN} more")
