@@ -19,7 +19,7 @@ GOOD = make_spec(steps=100).canonical()
         (["study", "{}", "--results", "R"], "study: tasks: missing"),
         (["tables", "R"], "study.json: missing"),
         (["figure", "4", "R"], "figure: 4: there are figures 5 to 11"),
-        (["figure", "5", "R"], "runs.parquet: missing"),
+        (["figure", "5", "R"], "study.json: missing"),
         (["report", "R"], "study.json: missing"),
         (["check", "none.yaml"], "none.yaml: cannot be read"),
     ],

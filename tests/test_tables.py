@@ -88,4 +88,6 @@ def test_a_cell_is_summed_up_over_its_runs():
     assert cell["falls_median"] == 3
     assert cell["falls_p05"] == pytest.approx(1.2)
     # Most runs never became stable, and so neither did the median run.
-    assert pd.isna(cell["first_stable_step_median"])
+    assert cell["first_stable_step_median"] == np.inf
+    assert cell["falls_mean"] == 3
+    assert cell["falls_mean_low"] < 3 < cell["falls_mean_high"]

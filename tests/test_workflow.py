@@ -83,7 +83,8 @@ class Study:
 
 
 EVERYTHING = {
-    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "figure": FIGURES_OF_SMALL, "report": 1,
+    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "figure": FIGURES_OF_SMALL,
+    "report": 1,
 }  # fmt: skip
 
 
@@ -120,6 +121,20 @@ def test_everything_of_the_contract_is_there(study):
         for ending in ("svg", "png"):
             assert (results / f"figures/fig{number:02d}.{ending}").stat().st_size > 5_000
     assert (results / "report/index.html").stat().st_size > 20_000
+
+
+def test_every_claim_has_a_verdict(study):
+    verdicts = pd.read_parquet(study.folder / "results/tables/verdicts.parquet").set_index("claim")
+    needed = "statement section measure threshold estimate low high n verdict figure recordings"
+    assert set(needed.split()) <= set(verdicts.columns)
+    assert list(verdicts.index) == [f"C{number}" for number in range(1, 17)]
+    assert verdicts.at["C16", "verdict"] == "reproduced"
+    assert verdicts.at["C15", "verdict"] == "not in this study"
+    assert "full-control/modular-networks-5/alpha-1" in verdicts.at["C15", "measure"]
+    # Two runs decide nothing that takes 30.
+    assert verdicts.at["C2", "verdict"] == "inconclusive"
+    for path in verdicts.at["C2", "recordings"]:
+        assert (study.folder / "results" / path).is_file()
 
 
 def test_the_page_says_which_figures_it_has_not_and_what_they_need(study):
@@ -171,7 +186,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 5
+    assert rules == 6
 
 
 def test_logs_and_benchmarks_are_written(study):
@@ -205,6 +220,20 @@ def test_a_changed_template_remakes_the_page_alone(study):
     template = study.folder / "report/index.html.j2"
     template.write_text(template.read_text("utf-8").replace("reproduced", "Reproduced"), "utf-8")
     assert study.jobs() == {"report": 1}
+
+
+def test_a_threshold_judges_again_and_remakes_the_page(study):
+    claims = study.folder / "config/claims.yaml"
+    claims.write_text(
+        claims.read_text("utf-8").replace("at_least: 0.98", "at_least: 0.97"), "utf-8"
+    )
+    assert study.jobs() == {"verdicts": 1, "report": 1}
+
+
+def test_a_comment_among_the_claims_judges_nothing(study):
+    claims = study.folder / "config/claims.yaml"
+    claims.write_text("# a comment\n" + claims.read_text("utf-8"), "utf-8")
+    assert study.jobs() == {}
 
 
 def test_a_reading_reruns_what_it_touches(study):

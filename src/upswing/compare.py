@@ -6,8 +6,7 @@ from typing import NamedTuple
 import pandas as pd
 
 from upswing.problems import BadInput
-from upswing.tables import RUNS
-from upswing.verdicts import EVIDENCE, VERDICTS
+from upswing.tables import EVIDENCE, RUNS, VERDICTS
 
 
 class Comparison(NamedTuple):

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -17,7 +18,7 @@ from upswing.spec import alpha_text
 from upswing.store.files import written
 from upswing.store.provenance import provenance
 from upswing.study import read_study
-from upswing.tables import CELLS, RUNS
+from upswing.tables import CELLS, RUNS, VERDICTS
 
 PAGE = "report/index.html"
 
@@ -36,6 +37,7 @@ def write_report(results: Path, templates: Path) -> None:
         matrix=Matrix(study),
         cells=_rows(results / CELLS),
         runs=len(_rows(results / RUNS)),
+        verdicts=_rows(results / VERDICTS),
         figures=_figures(results),
         readings=_readings(study.readings),
         provenance=provenance(),
@@ -88,7 +90,8 @@ def _readings(readings: Readings) -> list[dict[str, Any]]:
 
 
 def _number(value: float | None, digits: int = 0) -> str:
-    return "–" if value is None or pd.isna(value) else f"{value:,.{digits}f}"
+    known = value is not None and np.isfinite(value)
+    return f"{value:,.{digits}f}" if known else "–"
 
 
 def _percent(value: float | None) -> str:

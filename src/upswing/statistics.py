@@ -5,6 +5,7 @@ From scipy where it has them. Every interval is one of 95 % for the estimate, un
 same interval.
 """
 
+import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from math import ceil, floor, hypot, sqrt
@@ -165,7 +166,8 @@ def wilson(value: float, n: int) -> tuple[float, float]:
     z = _z()
     middle = (value + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z * sqrt(value * (1 - value) / n + z**2 / (4 * n**2)) / (1 + z**2 / n)
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # At 0 and at 1 rounding must not leave the share outside its own interval.
+    return max(0.0, min(value, middle - half)), min(1.0, max(value, middle + half))
 
 
 def range_of_means(groups: Sequence[Sample]) -> Estimate:
@@ -220,8 +222,7 @@ def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Est
     reached = sum(time is not None and time <= limit for time in times)
     if reached in (0, n):  # the log-log interval has no width there; Wilson's has
         return share(reached, n)._replace(method="Kaplan–Meier (Wilson at 0 and 1)")
-    survival = _survival(times, horizon)
-    interval = survival.confidence_interval(CONFIDENCE, method="log-log")
+    survival, interval = _survival(times, horizon)
     value, low, high = (
         1 - float(curve.evaluate(limit)) for curve in (survival, interval.high, interval.low)
     )
@@ -238,8 +239,7 @@ def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, f
     """The median time and its interval by Kaplan–Meier; infinite where half never got there."""
     if not any(time is not None for time in times):
         return np.inf, np.inf, np.inf
-    survival = _survival(times, horizon)
-    interval = survival.confidence_interval(CONFIDENCE, method="log-log")
+    survival, interval = _survival(times, horizon)
 
     def halved(curve: Any) -> float:
         below = np.flatnonzero(np.asarray(curve.probabilities) <= 0.5)
@@ -248,13 +248,17 @@ def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, f
     return halved(survival), halved(interval.low), halved(interval.high)
 
 
-def _survival(times: Sequence[float | None], horizon: float) -> Any:
-    """Scipy's survival function of times that are censored at ``horizon``."""
+def _survival(times: Sequence[float | None], horizon: float) -> tuple[Any, Any]:
+    """Scipy's survival function of times that are censored at ``horizon``, and its interval."""
     data = stats.CensoredData(
         uncensored=[time for time in times if time is not None],
         right=[horizon for time in times if time is None],
     )
-    return stats.ecdf(data).sf
+    survival = stats.ecdf(data).sf
+    with warnings.catch_warnings():
+        # Where all have got there the interval is undefined; nothing is asked of it there.
+        warnings.simplefilter("ignore", RuntimeWarning)
+        return survival, survival.confidence_interval(CONFIDENCE, method="log-log")
 
 
 def spread(values: Sample) -> tuple[float, float]:

@@ -17,6 +17,8 @@ from upswing.store.trajectory import read_metadata
 
 RUNS = "tables/runs.parquet"
 CELLS = "tables/cells.parquet"
+VERDICTS = "tables/verdicts.parquet"
+EVIDENCE = "tables/evidence.parquet"
 
 NULLABLE = {
     "alpha": "float64",

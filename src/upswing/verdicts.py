@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
@@ -13,10 +14,7 @@ from upswing.convergence import PROBLEMS, contracts
 from upswing.problems import BadInput, near
 from upswing.runs import Results
 from upswing.statistics import Estimate
-from upswing.tables import write_table
-
-VERDICTS = "tables/verdicts.parquet"
-EVIDENCE = "tables/evidence.parquet"
+from upswing.tables import EVIDENCE, VERDICTS, write_table
 
 
 class Evidence(NamedTuple):
@@ -46,6 +44,7 @@ def write_verdicts(results: Path, claims: Mapping[str, Claim]) -> pd.DataFrame:
         BadInput: runs of the study are missing, or a claim asks for a measure that there is not.
     """
     found = Results(results)
+    _ = found.runs  # that all of them are there, whatever the claims ask
     evidence = [row for name, claim in claims.items() for row in judge(found, name, claim)]
     verdicts = sum_up(found, claims, evidence)
     write_table(results / EVIDENCE, pd.DataFrame(evidence))
@@ -158,7 +157,8 @@ def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidenc
         )
     for row, adjusted in zip(rows, statistics.holm([row["p_value"] for row in rows]), strict=True):
         row["p_holm"] = adjusted
-    return pd.DataFrame(rows).astype({"figure": "Int64"})
+    frame = pd.DataFrame(rows)
+    return frame.astype({"figure": "Int64"}) if rows else frame
 
 
 def _recordings(results: Results, cell: str | None) -> list[str]:
