@@ -43,6 +43,10 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 	@$(SNAKEMAKE) --configfile config/smoke.yaml
 	@echo "The report is at results/smoke/report/index.html"
 
+.PHONY: browse
+browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"
+	@$(BIN)/upswing browse $(FILTER)
+
 .PHONY: test
 test: install ## Run all tests
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup

@@ -102,9 +102,28 @@ def test_the_recording_read_back(stored):
                 properties[name.split(":")[-1]] = batch[name].to_pylist()
         elif "step" in batch.schema.names:
             rows[entity] = rows.get(entity, 0) + batch.num_rows
-    assert {"step", "sim_time"} <= names
-    assert set(rows) == {"/state", "/cart", "/action", "/learning"}
-    assert len(set(rows.values())) == 1
+    assert {"frame", "step", "sim_time"} <= names
+    lines = {
+        "/angle",
+        "/angular_velocity",
+        "/cart/position",
+        "/cart/velocity",
+        "/action",
+        "/learning",
+    }
+    pictures = {
+        "/pendulum/rod",
+        "/pendulum/push",
+        "/pendulum/ground",
+        "/phase/state",
+        "/phase/trail",
+    }
+    maps = {"/learned/policy", "/learned/value"}
+    assert set(rows) == lines | pictures | maps | {"/events", "/envelope/angle"}
+    for together in (lines, pictures, maps):
+        assert len({rows[entity] for entity in together}) == 1
+    assert 30 <= rows["/learned/policy"] <= 40
+    assert (folder / "seed-4.rrd").stat().st_size < 600_000
     assert properties["alpha"] == [[0.5]]
     assert properties["seed"] == [[4]]
     assert properties["falls"][0][0] > 0

@@ -64,6 +64,20 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("b", type=Path)
     added.set_defaults(verb=_compare)
 
+    summary = "Browse the recordings of all runs, or of some."
+    added = verbs.add_parser(
+        "browse", help=summary, description=summary,
+        epilog="A FILTER is task=, architecture=, alpha=, seed= (0,3 or 0..4), claim=C13, or the id "
+        "of a run, a cell or a task; several must all be fulfilled.",
+    )  # fmt: skip
+    added.add_argument("filter", nargs="*", metavar="FILTER")
+    added.add_argument("--results", type=Path, default=Path("results"))
+    added.add_argument("--web", action="store_true", help="serve a page, where there is no display")
+    added.add_argument("--print", action="store_true", help="only say what would be opened")
+    added.add_argument("--port", type=int, default=9871, help="of the catalog (default: 9871)")
+    added.add_argument("--web-port", type=int, default=9872, help="of the page (default: 9872)")
+    added.set_defaults(verb=_browse)
+
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
         ("report", _report, "Write report/index.html."),
@@ -127,6 +141,20 @@ def _compare(options: argparse.Namespace) -> int:
     comparison = compare(options.a, options.b)
     print_comparison(comparison)
     return 1 if comparison.changed_verdicts else 0
+
+
+def _browse(options: argparse.Namespace) -> None:
+    from upswing.recordings.browse import catalog, show
+    from upswing.recordings.selection import select
+    from upswing.runs import Results
+
+    results = Results(options.results)
+    runs = select(results, options.filter)
+    if options.print:
+        print("\n".join(str(options.results / recording) for recording in runs["recording"]))
+        return
+    with catalog(results, runs, options.port) as served:
+        show(served, options.web, options.web_port)
 
 
 def _figure(options: argparse.Namespace) -> None:

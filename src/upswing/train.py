@@ -2,6 +2,7 @@
 
 import sys
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -13,11 +14,12 @@ from upswing.catching import highest_stoppable_speed
 from upswing.evaluation import evaluate
 from upswing.loop import Trajectory, empty_trajectory
 from upswing.measures import Measures, in_windows, measure
+from upswing.recordings.run import write_recording
 from upswing.setting import Setting, prepare
+from upswing.snapshots import Snapshots, look, moments, snapshots
 from upswing.spec import Spec
 from upswing.store.files import written
 from upswing.store.provenance import metadata, provenance
-from upswing.store.recording import write_recording
 from upswing.store.trajectory import digest, kept_steps, write_trajectory, write_windows
 
 
@@ -31,6 +33,7 @@ class Run:
 
     trajectory: Trajectory
     setting: Setting
+    learned: Snapshots  # what it knew on the way
     seconds: float  # spent learning
 
 
@@ -61,12 +64,15 @@ def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
     """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
     setting = prepare(spec, seed)
     setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
-    begin = perf_counter()
-    setting.advance(trajectory, 0, spec.task.steps)
-    seconds = perf_counter() - begin
+    seconds, looked = 0.0, [(0, look(setting.learner))]
+    for first, last in pairwise(moments(spec.task.steps).tolist()):
+        begin = perf_counter()
+        setting.advance(trajectory, first, last)
+        seconds += perf_counter() - begin
+        looked.append((last, look(setting.learner)))
     if spec.alpha is None:
         trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
-    return Run(trajectory, setting, seconds)
+    return Run(trajectory, setting, snapshots(setting.tiles, looked), seconds)
 
 
 def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
@@ -94,8 +100,12 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     write_recording(
         place.with_name(f"{place.name}.rrd"),
         spec.run(seed),
+        spec.task.kind,
         run.trajectory,
-        measures.first_stable_step,
+        windows,
+        measures,
+        run.learned,
+        run.setting.body,
         _properties(spec, seed, outcome),
     )
     with written(place.with_name(f"{place.name}.weights.safetensors")) as beside:

@@ -62,6 +62,9 @@ class Learner(Protocol):
     def learned(self) -> Mapping[str, NDArray[Any]]:
         """What was learned, by name; the names and shapes of the weights file."""
 
+    def action_values(self) -> Array:
+        """Q of every state and action, shape (modules, tiles, actions)."""
+
     @property
     def epsilon(self) -> float | None:
         """The share of random actions, where it is the learner's own and not the study's."""

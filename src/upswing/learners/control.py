@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.learners import Array, Beginning, Q, update_of, values_of
-from upswing.tasks import ACCELERATIONS
+from upswing.tasks import ACCELERATIONS, ACTIONS
 
 
 class Control(NamedTuple):
@@ -29,7 +29,8 @@ def _update(control: Control, module: int, tile: int, action: int, error: float)
 class ControlLearner:
     """`idle` never accelerates the cart; `random` takes every action equally often."""
 
-    def __init__(self, behaviour: str) -> None:
+    def __init__(self, behaviour: str, modules: int, tiles: int) -> None:
+        self.shape = (modules, tiles, ACTIONS)
         self.epsilon = {"idle": 0.0, "random": 1.0}[behaviour]
         self.stepped = Control(-np.abs(np.array(ACCELERATIONS)))
 
@@ -38,7 +39,11 @@ class ControlLearner:
         """Nothing is learned; ``preference`` is what the control began and ended with."""
         return {"preference": self.stepped.preference}
 
+    def action_values(self) -> Array:
+        """The preference, the same in every state."""
+        return np.broadcast_to(self.stepped.preference, self.shape)
+
 
 def create(beginning: Beginning) -> ControlLearner:
     """The control named by ``beginning.behaviour``."""
-    return ControlLearner(beginning.behaviour)
+    return ControlLearner(beginning.behaviour, beginning.tiles.modules, beginning.tiles.tiles)

@@ -8,11 +8,12 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any, NamedTuple
 
+import numpy as np
 import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from upswing.learners import Beginning
+from upswing.learners import Array, Beginning
 from upswing.learners.one_hidden import one_hidden
 from upswing.learners.two_hidden import two_hidden
 from upswing.tasks import ACTIONS
@@ -76,6 +77,14 @@ class NetworksLearner:
     def learned(self) -> Mapping[str, NDArray[Any]]:
         """The networks' ``state_dict``."""
         return {name: tensor.numpy() for name, tensor in self.networks.state_dict().items()}
+
+    def action_values(self) -> Array:
+        """Every network at every tile, through torch."""
+        modules, _, tiles, _ = self.networks.weights[0].shape
+        states = torch.eye(tiles, dtype=torch.float64)
+        with torch.no_grad():
+            values = torch.stack([self.networks(module, states) for module in range(modules)])
+        return np.asarray(values.numpy())
 
 
 def create(beginning: Beginning) -> NetworksLearner:

@@ -39,6 +39,10 @@ class TableLearner:
         """``q``: (modules, tiles, actions)."""
         return {"q": self.stepped.q}
 
+    def action_values(self) -> Array:
+        """The table itself."""
+        return self.stepped.q
+
 
 def create(beginning: Beginning) -> TableLearner:
     """A table with the first Q of R5: zero, the lowest return, or uniform between the two."""

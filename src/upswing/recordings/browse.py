@@ -1,0 +1,116 @@
+"""A catalog of recordings on this machine alone, and a viewer for it: ``make browse``."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+from urllib.parse import quote
+
+import pandas as pd
+
+from upswing.problems import BadInput
+from upswing.runs import Results
+
+LOOPBACK = "127.0.0.1"
+PORT, WEB_PORT = 9871, 9872
+"""Where the catalog and the web viewer are served, where nothing else is said."""
+
+
+class Catalog(NamedTuple):
+    """A catalog that is being served."""
+
+    url: str  # the catalog, or the one run where there is only one
+    runs: int
+
+
+@contextmanager
+def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog]:
+    """Serve the recordings of ``runs`` on 127.0.0.1, a dataset for each task, with its layout."""
+    import rerun as rr
+
+    from upswing.recordings.layout import run_layout
+
+    _check_free(port)
+    paths = {
+        str(task): [results.folder / recording for recording in group["recording"]]
+        for task, group in runs.groupby("task", sort=False)
+    }
+    missing = [path for group in paths.values() for path in group if not path.is_file()]
+    if missing:
+        raise BadInput([f"{missing[0]}: missing ({len(missing)} in all); run the study again"])
+    kinds = {cell.task.name: cell.task.kind for cell in results.cells.values()}
+    with (
+        TemporaryDirectory() as folder,
+        rr.server.Server(host=LOOPBACK, port=port, datasets=dict(paths)) as server,
+    ):
+        url = str(server.url())
+        client = server.client()
+        for task in paths:
+            layout = Path(folder) / f"{task}.rbl"
+            run_layout(kinds[task]).save(f"upswing-{task}", layout)
+            dataset = client.get_dataset(task)
+            dataset.register_blueprint(layout.as_uri())
+            if len(runs) == 1:
+                url = dataset.segment_url(dataset.segment_ids()[0])
+        yield Catalog(url, len(runs))
+
+
+def show(catalog: Catalog, web: bool, web_port: int) -> None:
+    """Open a viewer on ``catalog`` and wait until it is closed, or Ctrl-C."""
+    viewer = str(Path(sys.executable).with_name("rerun"))
+    if web:
+        _check_free(web_port)
+        command = [viewer, "--serve-web", "--bind", LOOPBACK]
+        command += ["--web-viewer-port", str(web_port), catalog.url]
+        page = f"http://{LOOPBACK}:{web_port}/?url={quote(catalog.url, safe='')}"
+        print(f"{catalog.runs} runs at {page}\nCtrl-C ends it.", flush=True)
+    else:
+        if not has_display():
+            raise BadInput(
+                ["there is no display here; `upswing browse --web` serves a page instead"]
+            )
+        command = [viewer, catalog.url]
+        print(f"{catalog.runs} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it.")
+    # A session of its own, so that nothing of the viewer is left behind.
+    with subprocess.Popen(command, start_new_session=True) as process:
+        try:
+            process.wait()
+        except KeyboardInterrupt:
+            print()
+        finally:
+            _end(process)
+
+
+def has_display() -> bool:
+    """Whether a window can be opened."""
+    if sys.platform != "linux":
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    for sign in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(process.pid, sign)
+            process.wait(5)
+        except ProcessLookupError:
+            return
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def _check_free(port: int) -> None:
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((LOOPBACK, port))
+        except OSError:
+            raise BadInput(
+                [f"port {port} is in use; choose others with --port and --web-port"]
+            ) from None
