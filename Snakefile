@@ -17,6 +17,7 @@ if not workflow.configfiles:
 
 try:
     STUDY = from_snakemake(workflow.configfiles, config)
+    CLAIMS = canonical_claims("config/claims.yaml")
 except BadInput as error:
     raise WorkflowError(str(error)) from None
 

@@ -33,6 +33,7 @@ Kind = Literal[
     "difference_of_shares",
     "probability_greater",
     "range_of_means",
+    "range_of_shares",
 ]
 Cells = Annotated[tuple[str, ...], BeforeValidator(listed)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -48,10 +49,12 @@ CELLS_OF: dict[str, tuple[int, int]] = {
     "difference_of_shares": (2, 2),
     "probability_greater": (2, 2),
     "range_of_means": (2, 9),
+    "range_of_shares": (2, 9),
 }
 """How many cells each kind compares, at least and at most."""
 
-WITHOUT_MEASURE = ("share", "share_identical", "share_contracting", "difference_of_shares")
+OF_SHARES = ("share", "difference_of_shares", "range_of_shares")
+WITHOUT_MEASURE = (*OF_SHARES, "share_identical", "share_contracting")
 
 
 class Bound(Strict):
@@ -105,8 +108,8 @@ class Part(Strict):
                 raise ValueError(f"{self.kind} compares {fewest} to {most} cells, not {len(cells)}")
         if (self.measure is None) != (self.kind in WITHOUT_MEASURE):
             raise ValueError(f"`measure` does not go with {self.kind}, or is missing")
-        if bool(self.where) != (self.kind in ("share", "difference_of_shares")):
-            raise ValueError("`where` goes with share and difference_of_shares, always")
+        if bool(self.where) != (self.kind in OF_SHARES):
+            raise ValueError(f"`where` goes with {', '.join(OF_SHARES)}, always")
         if (self.limit is not None) != (self.kind == "share_by"):
             raise ValueError("`limit` goes with share_by, always")
         return self
@@ -134,6 +137,15 @@ class Part(Strict):
         sign = "≥" if self.is_lower else "≤"
         return f"{sign} {self.threshold:g} (partly {sign} {self.partly:g})"
 
+    def could_be_better(self, estimate: Estimate) -> bool:
+        """Whether the interval of an estimate reaches the threshold without lying beyond it.
+
+        "Partly" then means at least partly: more runs might yet show that the claim holds.
+        """
+        sign = 1 if self.is_lower else -1
+        worst, best = sorted((sign * estimate.low, sign * estimate.high))
+        return worst < sign * self.threshold <= best
+
     def verdict(self, estimate: Estimate) -> Verdict:
         """What the interval of an estimate says of this part; nothing else is asked."""
         sign = 1 if self.is_lower else -1
@@ -156,6 +168,7 @@ class Claim(Strict):
     section: str
     figure: int | None
     cell: str | None  # the cell whose worst, median and best run show it
+    note: str = ""  # what a reader of the verdict must know
     parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
 
 

@@ -26,7 +26,7 @@ def compare(a: Path, b: Path) -> Comparison:
     """What differs between the results in ``a`` and in ``b``.
 
     A verdict that only one of them has counts as changed. An estimate has parted if it lies outside
-    the other's interval, either way round.
+    the other's interval, either way round, or if only one of them has it.
     """
     verdicts_a, verdicts_b = (_read(folder, VERDICTS).set_index("claim") for folder in (a, b))
     claims = [*verdicts_a.index, *verdicts_b.index.difference(verdicts_a.index)]
@@ -38,16 +38,24 @@ def compare(a: Path, b: Path) -> Comparison:
         )
         if before != after:
             changed.append((str(claim), before, after))
-    key = ["claim", "measure", "cells", "threshold"]
-    both = _read(a, EVIDENCE).merge(_read(b, EVIDENCE), on=key, suffixes=("_a", "_b"))
+    key = ["claim", "part", "cells"]
+    both = _read(a, EVIDENCE).merge(
+        _read(b, EVIDENCE), on=key, how="outer", suffixes=("_a", "_b"), indicator=True
+    )
     outside = (
         (both["estimate_a"] < both["low_b"])
         | (both["estimate_a"] > both["high_b"])
         | (both["estimate_b"] < both["low_a"])
         | (both["estimate_b"] > both["high_a"])
+        | (both["_merge"] != "both")
     )
     parted = [
-        (row["claim"], f"{row['measure']} of {row['cells']}", row["estimate_a"], row["estimate_b"])
+        (
+            row["claim"],
+            f"part {row['part']}, {row['cells']}",
+            row["estimate_a"],
+            row["estimate_b"],
+        )
         for row in both[outside].to_dict("records")
     ]
     runs_a, runs_b = (_read(folder, RUNS).set_index("run")["digest"] for folder in (a, b))

@@ -47,6 +47,7 @@ class Measures(NamedTuple):
     swing_ups_last_fifth: int
     arrival_speed: float | None  # mean |φ̇| on arriving [rad/s]; None without arrivals
     too_fast_share: float | None  # share of arrivals that ±10 m/s² cannot stop; None without them
+    recovered_share: float | None  # see ``_recoveries``, in the last fifth; None if never below
 
 
 class Windows(NamedTuple):
@@ -74,6 +75,7 @@ def measure(trajectory: Trajectory, kind: str, too_fast: float) -> Measures:
     falls, upright, above, reward = _sums(trajectory, last, steps)
     first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, STABLE_SHARE)
     length = steps - last
+    below, recovered = _recoveries(trajectory, last, steps)
     swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
     return Measures(
         steps=steps,
@@ -90,6 +92,7 @@ def measure(trajectory: Trajectory, kind: str, too_fast: float) -> Measures:
         swing_ups_last_fifth=_arrivals(trajectory, last, steps, too_fast)[0],
         arrival_speed=speed / swing_ups if swing_ups else None,
         too_fast_share=unstoppable / swing_ups if swing_ups else None,
+        recovered_share=recovered / below if below else None,
     )
 
 
@@ -164,6 +167,23 @@ def _arrivals(
             speeds += speed
             unstoppable += speed > too_fast
     return arrivals, speeds, unstoppable
+
+
+@compiled
+def _recoveries(trajectory: Trajectory, first: int, last: int) -> tuple[int, int]:
+    """Excursions below the horizontal, and those that end upright before the next one begins."""
+    excursions, recovered = 0, 0
+    is_below, is_open = False, False
+    for t in range(first, last):
+        tilt = abs(physical(trajectory.angle[t]))
+        if tilt > HORIZONTAL and not is_below:
+            excursions += 1
+            is_open = True
+        is_below = tilt > HORIZONTAL
+        if is_open and tilt <= UPRIGHT:
+            recovered += 1
+            is_open = False
+    return excursions, recovered
 
 
 @compiled

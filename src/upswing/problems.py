@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any, get_args
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, RootModel, ValidationError
 from pydantic_core import ErrorDetails
 
 Place = tuple[int | str, ...]
@@ -87,6 +87,8 @@ def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:
 def _fields_at(model: type[BaseModel], place: Place) -> list[str]:
     """The keys that ``model`` knows at ``place``."""
     current: Any = model
+    if issubclass(model, RootModel):
+        current = model.model_fields["root"].annotation
     for part in place:
         if isinstance(current, type) and issubclass(current, BaseModel):
             field = current.model_fields.get(str(part))

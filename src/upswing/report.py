@@ -19,6 +19,7 @@ from upswing.store.files import written
 from upswing.store.provenance import provenance
 from upswing.study import read_study
 from upswing.tables import CELLS, RUNS, VERDICTS
+from upswing.terminal import words_of
 
 PAGE = "report/index.html"
 
@@ -30,7 +31,9 @@ def write_report(results: Path, templates: Path) -> None:
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters.update(number=_number, percent=_percent, spread=_spread, alpha=_alpha)
+    environment.filters.update(
+        number=_number, percent=_percent, spread=_spread, alpha=_alpha, verdict=_verdict
+    )
     style = (templates / "style.css").read_text("utf-8")
     page = environment.get_template("index.html.j2").render(
         study=study,
@@ -108,3 +111,7 @@ def _spread(row: dict[str, Any], measure: str, digits: int = 0, factor: float = 
 
 def _alpha(value: float | None) -> str:
     return "–" if value is None or pd.isna(value) else alpha_text(value)
+
+
+def _verdict(row: dict[str, Any]) -> str:
+    return words_of(row["verdict"], row["could_be_better"])

@@ -85,6 +85,19 @@ class Results:
             raise BadInput(incomplete)
         return frame
 
+    def check_complete(self) -> None:
+        """Raise ``BadInput`` if a run, or what shows it, is missing; it names the cells."""
+        problems = []
+        for cell in self.cells:
+            recordings = [self.folder / path for path in self.cell(cell)["recording"]]
+            if lost := [path for path in recordings if not path.is_file()]:
+                problems.append(
+                    f"{self.folder}: {cell}: {len(lost)} of {len(recordings)} recordings are missing "
+                    f"({lost[0].name}, …); run the study again to make them"
+                )
+        if problems:
+            raise BadInput(problems)
+
     def cell(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs."""
         if cell not in self.cells:

@@ -8,6 +8,7 @@ same interval.
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import combinations
 from math import ceil, floor, hypot, sqrt
 from typing import Any, NamedTuple
 
@@ -57,6 +58,8 @@ def bootstrap_tail(resampled: Real) -> Tail:
     """The part of a bootstrap distribution, shape (resamples,), on the wrong side of a threshold."""
 
     def p_value(threshold: float, at_least: bool) -> float:
+        if not np.isfinite(resampled).all():  # 0/0, for example: then nothing speaks for the claim
+            return 1.0
         wrong = resampled < threshold if at_least else resampled > threshold
         return float((1 + wrong.sum()) / (1 + len(resampled)))
 
@@ -64,10 +67,10 @@ def bootstrap_tail(resampled: Real) -> Tail:
 
 
 def normal_tail(value: float, low: float, high: float) -> Tail:
-    """As if the interval were that of a normal distribution."""
+    """As if the half of an interval that faces the threshold were that of a normal distribution."""
 
     def p_value(threshold: float, at_least: bool) -> float:
-        deviation = (high - low) / (2 * _z())
+        deviation = (value - low if at_least else high - value) / _z()
         distance = (value - threshold) if at_least else (threshold - value)
         return float(stats.norm.sf(distance / deviation))
 
@@ -79,24 +82,26 @@ def no_runs(low: float = 0.0, high: float = 1.0) -> Estimate:
     return Estimate(np.nan, low, high, 0, "no runs", lambda _threshold, _at_least: 1.0)
 
 
-def share(successes: int, n: int) -> Estimate:
+def share(successes: int, n: int, confidence: float = CONFIDENCE) -> Estimate:
     """A share k of n with Wilson's interval; from 0 to 1 of no runs at all."""
     if not n:
         return no_runs()
-    interval = stats.binomtest(successes, n).proportion_ci(CONFIDENCE, method="wilson")
+    interval = stats.binomtest(successes, n).proportion_ci(confidence, method="wilson")
     value = successes / n
     tail = binomial_tail(value, n)
     return Estimate(value, float(interval.low), float(interval.high), n, "share, Wilson", tail)
 
 
-def difference_of_shares(x: Sequence[bool], y: Sequence[bool]) -> Estimate:
+def difference_of_shares(
+    x: Sequence[bool], y: Sequence[bool], confidence: float = CONFIDENCE
+) -> Estimate:
     """The share of x minus that of y, with Newcombe's interval from Wilson's of both.
 
     It takes the runs as if they were not paired, which makes it wider than it need be.
     """
     if not len(x) or not len(y):
         return no_runs(-1.0, 1.0)
-    one, other = share(sum(x), len(x)), share(sum(y), len(y))
+    one, other = share(sum(x), len(x), confidence), share(sum(y), len(y), confidence)
     value = one.value - other.value
     low = value - hypot(one.value - one.low, other.high - other.value)
     high = value + hypot(one.high - one.value, other.value - other.low)
@@ -171,19 +176,62 @@ def wilson(value: float, n: int) -> tuple[float, float]:
 
 
 def range_of_means(groups: Sequence[Sample]) -> Estimate:
-    """The largest mean minus the smallest of paired groups; bootstrap of the pairs, percentiles.
+    """The largest difference between the means of paired groups.
 
-    Noise widens a range and never narrows it, so the interval errs on the side of a difference.
+    The interval is that of all pairs together: a bootstrap interval for each, at Bonferroni's level.
+    Its upper end is the highest of theirs, its lower end the highest that is above no difference.
     """
 
-    def spread(*samples: Real) -> Real:
-        means = np.stack([sample.mean(axis=-1) for sample in samples])
-        return np.asarray(means.max(axis=0) - means.min(axis=0))
+    def difference(a: Real, b: Real) -> Real:
+        return np.asarray(a.mean(axis=-1) - b.mean(axis=-1))
 
-    return bootstrapped("range of means, paired", spread, groups)
+    pairs = list(combinations(groups, 2))
+    level = 1 - (1 - CONFIDENCE) / len(pairs)
+    found = [bootstrapped("difference", difference, pair, level) for pair in pairs]
+    return _largest(found, "largest difference of means, simultaneous bootstrap intervals")
 
 
-def bootstrapped(name: str, statistic: Callable[..., Real], samples: Sequence[Sample]) -> Estimate:
+def range_of_shares(groups: Sequence[Sequence[bool]]) -> Estimate:
+    """The largest difference between the shares of groups; as for means, with Newcombe's intervals."""
+    pairs = list(combinations(groups, 2))
+    level = 1 - (1 - CONFIDENCE) / len(pairs)
+    found = [difference_of_shares(one, other, level) for one, other in pairs]
+    return _largest(found, "largest difference of shares, simultaneous Newcombe intervals")
+
+
+def _largest(differences: Sequence[Estimate], method: str) -> Estimate:
+    """The largest of several differences, whichever their signs."""
+    if not all(one.n for one in differences):
+        return no_runs()
+
+    def p_value(threshold: float, at_least: bool) -> float:
+        above = [
+            min(one.p_value(threshold, True), one.p_value(-threshold, False)) for one in differences
+        ]
+        if at_least:  # one of them is enough, out of so many
+            return min(1.0, 2 * len(differences) * min(above))
+        # All of them must be smaller, on both sides.
+        below = [
+            max(one.p_value(threshold, False), one.p_value(-threshold, True)) for one in differences
+        ]
+        return max(below)
+
+    return Estimate(
+        value=max(abs(one.value) for one in differences),
+        low=max(0.0, *(max(one.low, -one.high) for one in differences)),
+        high=max(max(one.high, -one.low) for one in differences),
+        n=min(one.n for one in differences),
+        method=method,
+        p_value=p_value,
+    )
+
+
+def bootstrapped(
+    name: str,
+    statistic: Callable[..., Real],
+    samples: Sequence[Sample],
+    confidence: float = CONFIDENCE,
+) -> Estimate:
     """A statistic of paired samples, each of shape (n,), with a percentile bootstrap interval.
 
     ``statistic`` takes one array for each sample, shape (..., n), and answers with shape (...).
@@ -195,7 +243,7 @@ def bootstrapped(name: str, statistic: Callable[..., Real], samples: Sequence[Sa
     if not n:
         return no_runs(-np.inf, np.inf)
     resampled = np.asarray(statistic(*(array[_resamples(n)] for array in arrays)))
-    tails = ((1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2)
+    tails = ((1 - confidence) / 2, (1 + confidence) / 2)
     low, high = np.quantile(resampled, tails)
     value = float(statistic(*arrays))
     method = f"{name}, bootstrap ({RESAMPLES:,} resamples, percentiles)"

@@ -26,6 +26,7 @@ NULLABLE = {
     "falls_after_stable": "Int64",
     "arrival_speed": "float64",
     "too_fast_share": "float64",
+    "recovered_share": "float64",
 }
 """Columns that are empty for some runs."""
 

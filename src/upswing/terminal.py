@@ -21,21 +21,26 @@ SHOWN = 10
 
 def print_verdicts(verdicts: pd.DataFrame) -> None:
     """Print one row for each claim."""
-    table = Table(
-        "", "claim", "verdict", "estimate [95 %]", "threshold", "n", "by", show_lines=True
-    )
+    columns = ("", "claim", "verdict", "estimate [95 %]", "threshold", "n", "p (Holm)", "measured")
+    table = Table(*columns, show_lines=True)
     for row in verdicts.to_dict("records"):
         style = STYLES[row["verdict"]]
         table.add_row(
             row["claim"],
             row["statement"],
-            f"[{style}]{row['verdict']}[/{style}]",
+            f"[{style}]{words_of(row['verdict'], row['could_be_better'])}[/{style}]",
             rf"{row['estimate']:.3g} \[{row['low']:.3g}, {row['high']:.3g}]",
             row["threshold"],
             str(row["n"]),
-            row["measure"],
+            f"{row['p_holm']:.2g}",
+            f"{row['measure']}\n[dim]{row['note']}[/dim]" if row["note"] else row["measure"],
         )
     Console().print(table)
+
+
+def words_of(verdict: str, could_be_better: bool) -> str:
+    """A verdict as it is shown: "partly" says whether more runs might make it better."""
+    return f"at least {verdict}" if verdict == "partly" and could_be_better else verdict
 
 
 def print_comparison(comparison: Comparison) -> None:

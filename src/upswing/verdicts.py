@@ -21,6 +21,7 @@ class Evidence(NamedTuple):
     """A comparison: the estimate of one part of a claim."""
 
     claim: str
+    part: int  # from 1, in the order of the claim
     says: str
     cells: str
     measure: str
@@ -34,6 +35,7 @@ class Evidence(NamedTuple):
     spread_high: float  # 95th
     p_value: float
     verdict: Verdict
+    could_be_better: bool  # the interval reaches the threshold: "partly" means at least partly
     because: str
 
 
@@ -44,7 +46,7 @@ def write_verdicts(results: Path, claims: Mapping[str, Claim]) -> pd.DataFrame:
         BadInput: runs of the study are missing, or a claim asks for a measure that there is not.
     """
     found = Results(results)
-    _ = found.runs  # that all of them are there, whatever the claims ask
+    found.check_complete()  # whatever the claims ask
     evidence = [row for name, claim in claims.items() for row in judge(found, name, claim)]
     verdicts = sum_up(found, claims, evidence)
     write_table(results / EVIDENCE, pd.DataFrame(evidence))
@@ -56,7 +58,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
     """The evidence for a claim: a row for each comparison of each of its parts."""
     readings = results.study.readings
     rows = []
-    for part in claim.parts:
+    for number, part in enumerate(claim.parts, 1):
         asked = all(getattr(readings, key) == value for key, value in part.only_if.items())
         for cells in part.comparisons if asked else []:
             if missing := [cell for cell in cells if cell not in results.cells]:
@@ -72,6 +74,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
             rows.append(
                 Evidence(
                     claim=name,
+                    part=number,
                     says=says,
                     cells=" : ".join(cells),
                     measure=_measure(part),
@@ -85,6 +88,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
                     spread_high=statistics.spread(own)[1],
                     p_value=estimate.p_value(part.threshold, part.is_lower),
                     verdict=verdict,
+                    could_be_better=part.could_be_better(estimate),
                     because=part.because,
                 )
             )
@@ -100,10 +104,11 @@ def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
         case "share":
             fulfilled = _fulfilled(groups[0], part.where)
             return statistics.share(int(fulfilled.sum()), len(fulfilled))
-        case "difference_of_shares":
-            return statistics.difference_of_shares(
-                *(list(_fulfilled(group, part.where)) for group in groups)
-            )
+        case "difference_of_shares" | "range_of_shares":
+            shares = [list(_fulfilled(group, part.where)) for group in groups]
+            if part.kind == "range_of_shares":
+                return statistics.range_of_shares(shares)
+            return statistics.difference_of_shares(shares[0], shares[1])
         case "share_identical":
             digests = _paired(groups, "digest")
             return statistics.share(int((digests[0] == digests[1]).sum()), len(digests[0]))
@@ -150,6 +155,10 @@ def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidenc
                 "cells": decisive.cells,
                 "p_value": max(row.p_value for row in own),
                 "verdict": verdict,
+                "could_be_better": decisive.could_be_better,
+                "spread_low": decisive.spread_low,
+                "spread_high": decisive.spread_high,
+                "note": claim.note,
                 "parts": len(own),
                 "figure": claim.figure,
                 "recordings": _recordings(results, claim.cell),
@@ -193,6 +202,8 @@ def _paired(groups: list[pd.DataFrame], measure: str) -> list[NDArray[Any]]:
     seeds = columns[0].index
     for column in columns[1:]:
         seeds = seeds.intersection(column.index)
+    if any(column.isna().any() for column in columns):
+        raise BadInput([f"claims: {measure}: some runs have none; pairs of runs need one in each"])
     return [column.loc[seeds.sort_values()].to_numpy() for column in columns]
 
 
