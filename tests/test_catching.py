@@ -74,6 +74,16 @@ def test_arrivals_are_counted_with_their_speed_at_the_horizontal():
     assert found.too_fast_share == pytest.approx(1 / 3)
 
 
+def test_only_what_comes_up_to_20_degrees_has_recovered():
+    degrees = [0, 100, 170, 80, 120, 60, 10, 5, 100, 10, -5, 95]
+    trajectory = empty_trajectory(len(degrees) * 5)
+    trajectory.angle[:] = np.radians([0] * (len(degrees) * 4) + degrees)
+    found = measures.measure(trajectory, "full-control", 12.0)
+    # Below four times: after the first it passes the horizontal only, after the second and the third
+    # it comes up, and the fourth is where the run ends.
+    assert found.recovered_share == pytest.approx(2 / 4)
+
+
 def test_a_run_without_arrivals_has_no_speed():
     trajectory, _ = run(make_spec("balancing", "table", steps=2_000))
     found = measures.measure(trajectory, "balancing", 15.0)

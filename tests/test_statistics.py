@@ -98,12 +98,33 @@ def test_coverage_of_a_share_by_a_time():
 
 
 @pytest.mark.usefixtures("few_resamples")
-def test_a_range_of_equal_means_does_not_claim_to_be_narrower_than_it_is():
-    def draw(rng):
-        return ([rng.normal(size=30) for _ in range(3)],)
+@pytest.mark.parametrize("means", [(0, 0, 0), (0, 0, 0.5), (0, 0.2, 0.4), (0, 0, 2)])
+def test_coverage_of_the_largest_difference(means):
+    """Simultaneous intervals cover at least as often as they say, equal means included."""
 
-    above = [statistics.range_of_means(*draw(np.random.default_rng(i))).high for i in range(200)]
-    assert min(above) > 0.1
+    def draw(rng):
+        return ([rng.normal(mean, 1, 30) for mean in means],)
+
+    assert coverage(statistics.range_of_means, draw, max(means) - min(means)) > ROOM[0]
+
+
+@pytest.mark.parametrize("shares", [(0.5, 0.5, 0.5), (0.2, 0.5, 0.8), (0, 0, 1)])
+def test_coverage_of_the_largest_difference_of_shares(shares):
+    def draw(rng):
+        return ([rng.random(30) < p for p in shares],)
+
+    assert coverage(statistics.range_of_shares, draw, max(shares) - min(shares)) > ROOM[0]
+
+
+def test_coverage_of_the_median_time():
+    """The interval of Kaplan and Meier's median, with a third of the runs censored."""
+    rng = np.random.default_rng(2)
+    inside = 0
+    for _ in range(TRIALS):
+        times = [t if t < 1.1 else None for t in rng.exponential(size=30)]
+        _, low, high = statistics.median_time(times, 1.1)
+        inside += low <= np.log(2) <= high
+    assert ROOM[0] < inside / TRIALS < 0.99
 
 
 @given(st.integers(0, 40), st.integers(1, 40))
@@ -198,6 +219,17 @@ def test_p_values_of_a_bootstrap_are_small_far_from_the_threshold():
     assert found.p_value(3.0, True) == pytest.approx(1 / 10_001)
     assert found.p_value(7.0, True) == 1
     assert 0.2 < found.p_value(found.value, True) < 0.8
+
+
+def test_nothing_by_nothing_speaks_for_no_claim():
+    found = statistics.ratio_of_means([0.0] * 10, [0.0] * 10)
+    assert found.p_value(0.5, True) == found.p_value(0.5, False) == 1
+
+
+def test_the_p_value_of_a_difference_looks_at_the_side_of_the_threshold():
+    found = statistics.difference_of_shares([True] * 30, [False] * 30)
+    assert 1e-12 < found.p_value(0.5, True) < 1e-5
+    assert found.p_value(0.5, False) == 1
 
 
 def test_no_runs_tell_nothing():

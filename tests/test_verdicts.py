@@ -1,12 +1,14 @@
 """Verdicts on made-up runs whose truth is known, for each kind of comparison."""
 
 import json
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from upswing import statistics
 from upswing.claims import Claim, Part, load_claims, weakest
 from upswing.cli import main
 from upswing.compare import compare
@@ -42,7 +44,11 @@ def made_up(folder, **columns):
         for name, values in columns.items():
             frame[name] = values[number]
         frames.append(frame)
-    write_table(folder / RUNS, pd.concat(frames, ignore_index=True))
+    runs = pd.concat(frames, ignore_index=True)
+    write_table(folder / RUNS, runs)
+    for recording in runs["recording"]:
+        (folder / recording).parent.mkdir(parents=True, exist_ok=True)
+        (folder / recording).touch()
     return Results(folder)
 
 
@@ -137,6 +143,15 @@ CASES = {
             "not reproduced": [share_of(0.2) - 0.5, ZERO],
         },
     ),
+    "range_of_shares": (
+        part("range_of_shares", [ONE, OTHER, THIRD], where={"x": {"at_least": 1}}, **FROM),
+        {
+            "reproduced": [share_of(1), share_of(0), share_of(0.5)],
+            "partly": [share_of(0.9), share_of(0.1), share_of(0.5)],
+            "inconclusive": [share_of(0.6), share_of(0.1), share_of(0.3)],
+            "not reproduced": [share_of(0.2), share_of(0.1), share_of(0.15)],
+        },
+    ),
     "range_of_means": (
         part("range_of_means", [ONE, OTHER, THIRD], measure="x", **UP_TO),
         {
@@ -227,6 +242,33 @@ def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
         write_verdicts(tmp_path, {})
 
 
+def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
+    results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
+    for path in (tmp_path / "runs" / OTHER).iterdir():
+        path.unlink()
+    with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} recordings are missing"):
+        write_verdicts(results.folder, {})
+
+
+def test_runs_without_a_value_are_not_paired_in_silence(tmp_path):
+    results = made_up(tmp_path, x=[np.where(share_of(0.5) > 0, 1.0, np.nan), ZERO, ZERO])
+    asked = part("probability_greater", [ONE, OTHER], measure="x", **FROM)
+    claim = Claim(statement="…", section="…", figure=5, cell=None, parts=[asked])
+    with pytest.raises(BadInput, match="x: some runs have none"):
+        judge(results, "C0", claim)
+
+
+def test_partly_says_whether_it_may_be_more(tmp_path):
+    results = made_up(tmp_path, x=[share_of(0.75), share_of(0.65), ZERO])
+    parts = [part("share", [cell], where={"x": {"at_least": 1}}, **FROM) for cell in (ONE, OTHER)]
+    claim = Claim(statement="…", section="…", figure=5, cell=None, parts=parts)
+    rows = judge(results, "C0", claim)
+    assert [(row.verdict, row.could_be_better) for row in rows] == [
+        ("partly", True),
+        ("partly", False),
+    ]
+
+
 def test_a_measure_that_is_none_is_named(tmp_path):
     results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
     asked = part("location", [ONE], measure="falls_last_fith", **FROM)
@@ -251,6 +293,93 @@ def test_there_are_sixteen_claims_and_the_study_has_all_their_cells():
                     assert hasattr(next(iter(cells.values())).readings, key)
 
 
+def test_thirty_runs_can_reach_both_ends_of_every_share():
+    """No verdict may be out of reach whatever comes out."""
+    for name, claim in load_claims(Path("config/claims.yaml")).items():
+        for asked in claim.parts:
+            if asked.kind in ("share", "share_by", "share_identical", "share_contracting"):
+                n = 300 if asked.kind == "share_contracting" else 30
+                reached = {asked.verdict(statistics.share(k, n)) for k in range(n + 1)}
+                assert {"reproduced", "not reproduced"} <= reached, (name, asked.says)
+
+
+# For each claim measures of cells, by pattern, under which it is true, and under which it is false.
+# Of several patterns the last that matches counts. Two numbers are the bounds of random values.
+BALANCES, FALLS = {"falls_last_fifth": 0}, {"falls_last_fifth": 30}
+SOLVED, FAILED = {"upright_share": 0.97}, {"upright_share": (0.0, 0.1)}
+TRUE = {
+    "*": {**FAILED, "falls_last_fifth": 30, "falls_first_5000": 50, "falls_2500_to_5000": 30,
+          "mean_reward": (-8.6, -8.4), "greedy_success_share": 0, "first_stable_step": np.nan,
+          "too_fast_share": 0.6, "recovered_share": 0.9},
+    "balancing/random/*": {"falls_2500_to_5000": 30, "falls_last_fifth": 100},
+    "full-control/idle/*": {"mean_reward": -9.87},
+    "balancing/table/*": {"falls_2500_to_5000": 3, "falls_first_5000": 10},
+    "balancing/table/alpha-0*": BALANCES,
+    "balancing/networks-5/*": {**BALANCES, "first_stable_step": 9_000, "falls_first_5000": 60},
+    "full-control/modular-networks-5/*": {"upright_share": "three in ten"},
+}  # fmt: skip
+FALSE = {
+    "C1": {"balancing/table/alpha-1": {"falls_2500_to_5000": 29}},
+    "C2": {"balancing/table/alpha-1": BALANCES},
+    "C3": {"balancing/table/alpha-0.001": FALLS},
+    "C4": {"balancing/networks-5/alpha-1": {"falls_first_5000": 5}},
+    "C5": {"balancing/networks-5/alpha-1": FALLS},
+    "C6": {"balancing/table/*": BALANCES},
+    "C7": {"full-control/table/alpha-0.001": {"mean_reward": -1.0}},
+    "C8": {"full-control/table/alpha-0.5": SOLVED},
+    "C9": {"full-control-long/table/*": SOLVED},
+    "C10": {"full-control/networks-20-5/*": {"mean_reward": -2.0}},
+    "C11": {"full-control/modular-table/alpha-0.1": SOLVED},
+    "C12": {"full-control/modular-networks-5/*": FAILED},
+    "C13": {"full-control/modular-networks-5/*": SOLVED},
+    "C14": {"full-control/modular-networks-5/*": {"recovered_share": 0.1}},
+    "C15": {"full-control/modular-networks-5/*": {"too_fast_share": 0.02}},
+    "C16": {},
+}
+
+
+def world(folder, *layers):
+    """Results of the thesis's own matrix with made-up measures."""
+    study = load(Path("config/config.yaml"))
+    write_study(canonical(study), folder)
+    rows, draws = [], np.random.default_rng(1)
+    for cell, spec in Matrix(study).cells.items():
+        measures = {}
+        for layer in layers:
+            for pattern, values in layer.items():
+                if fnmatch(cell, pattern):
+                    measures.update(values)
+        twin = cell.replace("modular-table", "table")  # R14: the same runs
+        for seed in spec.seeds:
+            row = {"run": spec.run(seed), "seed": seed, "steps": spec.task.steps, "falls": seed}
+            row |= {"recording": f"runs/{spec.run(seed)}.rrd", "digest": f"{twin}-{seed}"}
+            for name, value in measures.items():
+                if isinstance(value, tuple):
+                    value = draws.uniform(*value)
+                elif value == "three in ten":
+                    value = 0.97 if seed % 10 < 3 else 0.05
+                row[name] = value
+            rows.append(row)
+            (folder / row["recording"]).parent.mkdir(parents=True, exist_ok=True)
+            (folder / row["recording"]).touch()
+    write_table(folder / RUNS, pd.DataFrame(rows))
+    return write_verdicts(folder, load_claims(Path("config/claims.yaml"))).set_index("claim")[
+        "verdict"
+    ]
+
+
+def test_in_a_world_where_the_thesis_is_right_every_claim_is_reproduced(tmp_path):
+    assert set(world(tmp_path, TRUE)) == {"reproduced"}
+
+
+@pytest.mark.parametrize("claim", FALSE)
+def test_a_claim_that_is_false_is_not_reproduced(tmp_path, monkeypatch, claim):
+    if claim == "C16":
+        monkeypatch.setattr("upswing.verdicts.contracts", lambda problem: problem % 2 == 0)
+    verdicts = world(tmp_path, TRUE, FALSE[claim])
+    assert verdicts[claim] == "not reproduced"
+
+
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
@@ -260,7 +389,7 @@ def test_there_are_sixteen_claims_and_the_study_has_all_their_cells():
         ({"measure": "falls"}, "`measure` does not go with share"),
         ({"cells": [ONE, OTHER]}, "share compares 1 to 1 cells, not 2"),
         ({"kind": "shares"}, "did you mean 'share"),
-        ({"becuase": "…"}, "unknown key"),
+        ({"becuase": "…"}, "unknown key: did you mean 'because'?"),
     ],
 )
 def test_a_badly_written_claim_is_explained(tmp_path, change, expected):

@@ -72,6 +72,8 @@ def normal_tail(value: float, low: float, high: float) -> Tail:
     def p_value(threshold: float, at_least: bool) -> float:
         deviation = (value - low if at_least else high - value) / _z()
         distance = (value - threshold) if at_least else (threshold - value)
+        if deviation == 0:  # the interval ends at its estimate, as at a difference of 1
+            return 0.0 if distance > 0 else 1.0
         return float(stats.norm.sf(distance / deviation))
 
     return p_value
