@@ -1,13 +1,16 @@
 # The study from configuration to report. Each rule calls one verb of the command `upswing`.
 
+from pathlib import Path
+
 from snakemake.exceptions import WorkflowError
 
-from upswing.claims import canonical_claims
+from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES
 from upswing.fingerprint import fingerprint
 from upswing.matrix import RUN_FILES, Matrix, training_code
 from upswing.problems import BadInput
+from upswing.recordings.names import comparison_names
 from upswing.study import canonical
 
 if not workflow.configfiles:
@@ -17,7 +20,7 @@ if not workflow.configfiles:
 
 try:
     STUDY = from_snakemake(workflow.configfiles, config)
-    CLAIMS = canonical_claims("config/claims.yaml")
+    CLAIMS = load_claims(Path("config/claims.yaml"))
 except BadInput as error:
     raise WorkflowError(str(error)) from None
 
@@ -41,10 +44,15 @@ wildcard_constraints:
 rule all:
     input:
         f"{RESULTS}/report/index.html",
+        expand(
+            f"{RESULTS}/recordings/{{name}}.rrd",
+            name=comparison_names(CLAIMS, MATRIX.cells),
+        ),
         expand(f"{RESULTS}/runs/{{run}}.{{kind}}", run=MATRIX.runs, kind=RUN_FILES),
 
 
 include: "workflow/rules/train.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/recordings.smk"
 include: "workflow/rules/report.smk"

@@ -83,8 +83,8 @@ class Study:
 
 
 EVERYTHING = {
-    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "figure": FIGURES_OF_SMALL,
-    "report": 1,
+    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparisons": 1,
+    "figure": FIGURES_OF_SMALL, "report": 1,
 }  # fmt: skip
 
 
@@ -186,7 +186,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 6
+    assert rules == 7
 
 
 def test_logs_and_benchmarks_are_written(study):
@@ -227,7 +227,7 @@ def test_a_threshold_judges_again_and_remakes_the_page(study):
     claims.write_text(
         claims.read_text("utf-8").replace("at_least: 0.98", "at_least: 0.97"), "utf-8"
     )
-    assert study.jobs() == {"verdicts": 1, "report": 1}
+    assert study.jobs() == {"verdicts": 1, "comparisons": 1, "report": 1}
 
 
 def test_a_comment_among_the_claims_judges_nothing(study):

@@ -185,9 +185,9 @@ def load_claims(path: Path) -> Mapping[str, Claim]:
         raise BadInput(explained(Claims, error, lambda _: str(path))) from None
 
 
-def canonical_claims(path: str) -> str:
-    """The claims of a file as one line: the same text for the same meaning."""
-    return Claims(dict(load_claims(Path(path)))).model_dump_json()
+def canonical_claims(claims: Mapping[str, Claim]) -> str:
+    """The claims as one line: the same text for the same meaning."""
+    return Claims(dict(claims)).model_dump_json()
 
 
 def weakest(verdicts: list[Verdict]) -> Verdict:

@@ -80,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
 
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
+        ("comparisons", _comparisons, "Write the recordings that compare runs."),
         ("report", _report, "Write report/index.html."),
     )
     for name, function, summary in verbs_of_results:
@@ -161,6 +162,14 @@ def _figure(options: argparse.Namespace) -> None:
     from upswing.figures import draw
 
     draw(options.number, options.results)
+
+
+def _comparisons(options: argparse.Namespace) -> None:
+    from upswing.recordings.comparison import write_comparisons
+    from upswing.runs import Results
+
+    for path in write_comparisons(Results(options.results)):
+        print(path)
 
 
 def _report(options: argparse.Namespace) -> None:

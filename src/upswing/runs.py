@@ -71,6 +71,7 @@ class Results:
     def runs(self) -> pd.DataFrame:
         """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
         path = self.folder / RUNS
+        cells = self.cells
         if not path.exists():
             raise BadInput([f"{path}: missing; `upswing tables {self.folder}` makes it"])
         frame = pd.read_parquet(path)
@@ -79,7 +80,7 @@ class Results:
         if incomplete := [
             f"{path}: {cell}: {len(lost)} of {len(spec.seeds)} runs are missing; "
             f"run the study again to make them"
-            for cell, spec in self.cells.items()
+            for cell, spec in cells.items()
             if (lost := set(spec.seeds) - there.get(cell, set()))
         ]:
             raise BadInput(incomplete)
@@ -121,9 +122,13 @@ class Results:
             chosen["run"],
             self.kind(cell),
             int(chosen["seed"]),
-            self._read(chosen["run"], "trajectory"),
+            self.trajectory(chosen["run"]),
             self._read(chosen["run"], "windows"),
         )
+
+    def trajectory(self, run: str) -> pd.DataFrame:
+        """The stored steps of a run."""
+        return self._read(run, "trajectory")
 
     def crowd(self, cell: str) -> Crowd:
         """All runs of a cell."""

@@ -43,7 +43,7 @@ rule verdicts:
     benchmark:
         f"{RESULTS}/benchmarks/verdicts.tsv"
     params:
-        claims=CLAIMS,
+        claims=canonical_claims(CLAIMS),
         code=fingerprint("upswing.verdicts", packages=["scipy"]),
     shell:
         "upswing verdicts {RESULTS:q} > {log:q} 2>&1"

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from upswing.figures.style import colour, grid_of_panels
+from upswing.colours import colour
+from upswing.figures.style import grid_of_panels
 from upswing.runs import Crowd, OneRun, Real, Results
 from upswing.store.trajectory import WHOLE_AT_START
 

@@ -17,17 +17,6 @@ WIDTH = 7.2
 
 ROW_HEIGHT = 1.9
 
-# Okabe and Ito's palette, told apart by colour-blind readers too; one colour for an architecture.
-COLOURS = {
-    "table": "#0072B2",
-    "networks-5": "#D55E00",
-    "networks-20-5": "#CC79A7",
-    "networks-30": "#A65628",
-    "modular-table": "#56B4E9",
-    "modular-networks-5": "#009E73",
-    "idle": "#777777",
-    "random": "#333333",
-}
 GRID = "#DDDDDD"
 
 plt.rcParams.update(
@@ -50,11 +39,6 @@ plt.rcParams.update(
         "path.simplify_threshold": 0.5,
     }
 )
-
-
-def colour(cell: str) -> str:
-    """The colour of a cell: that of its architecture."""
-    return COLOURS.get(cell.split("/")[1], "#000000")
 
 
 def grid_of_panels(rows: int, widths: tuple[float, float] = (3, 2)) -> tuple[Figure, list[Axes]]:

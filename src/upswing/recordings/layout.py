@@ -9,12 +9,15 @@ PENDULUM_SIZE = 0.26
 """Half the height of the picture of the pendulum [m]."""
 
 
+def whole_run() -> rrb.TimeAxis:
+    """A time axis that shows all there is; a viewer's own would show the neighbourhood of the cursor."""
+    unlimited = rr.TimeRangeBoundary.infinite()
+    return rrb.TimeAxis(view_range=rr.TimeRange(start=unlimited, end=unlimited))
+
+
 def run_layout(kind: str) -> rrb.Blueprint:
     """The layout of a run of a ``kind`` of task, for a laptop's screen."""
     limit = 90 if kind == "balancing" else 180
-    everything = rr.TimeRange(
-        start=rr.TimeRangeBoundary.infinite(), end=rr.TimeRangeBoundary.infinite()
-    )
 
     def lines(
         name: str, *origins: str, axis: tuple[float, float] | None = None
@@ -23,7 +26,7 @@ def run_layout(kind: str) -> rrb.Blueprint:
             name=name,
             origin=origins[0],
             contents=[f"{origin}/**" for origin in origins],
-            axis_x=rrb.TimeAxis(view_range=everything),
+            axis_x=whole_run(),
             axis_y=rrb.ScalarAxis(range=axis) if axis else None,
             plot_legend=rrb.PlotLegend(visible=True, corner=rrb.Corner2D.RightTop),
         )

@@ -1,0 +1,238 @@
+"""Recordings that compare runs: all of a task, and the worst, median and best run of a claim."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import rerun as rr
+import rerun.blueprint as rrb
+from numpy.typing import NDArray
+
+from upswing.colours import rgb
+from upswing.pendulum import Pendulum
+from upswing.recordings.layout import FRAME, PENDULUM_SIZE, STEP, whole_run
+from upswing.recordings.run import DRAWN_EVERY, rounded
+from upswing.runs import Crowd, Results
+from upswing.setting import body_of
+from upswing.store.files import written
+from upswing.tables import VERDICTS
+
+POINTS = 100
+"""A run's line has at most so many points."""
+
+SHOWN = 2_500
+"""Of the runs of a claim, so many first and so many last steps are shown [steps]."""
+
+RANKS = ("worst", "median", "best")
+THICK, MIDDLING, THIN = 3.0, 1.5, 0.6
+
+
+def task_names(results: Results) -> list[str]:
+    """The tasks of a study that there are comparisons of."""
+    return list(dict.fromkeys(cell.task.name for cell in results.cells.values()))
+
+
+def claim_names(results: Results) -> list[str]:
+    """The claims that there are comparisons of: those that name recordings."""
+    verdicts = pd.read_parquet(results.folder / VERDICTS)
+    shown = verdicts["recordings"].map(len) == len(RANKS)
+    return [str(claim) for claim in verdicts.loc[shown, "claim"]]
+
+
+def write_comparisons(results: Results) -> list[Path]:
+    """Write ``recordings/task-….rrd`` and ``recordings/claim-….rrd``; returns their paths."""
+    rr.set_strict_mode(True)
+    folder = results.folder / "recordings"
+    paths = []
+    for task in task_names(results):
+        paths.append(folder / f"task-{task}.rrd")
+        write_task(paths[-1], results, task)
+    for claim in claim_names(results):
+        paths.append(folder / f"claim-{claim}.rrd")
+        write_claim(paths[-1], results, claim)
+    return paths
+
+
+def write_task(path: Path, results: Results, task: str) -> None:
+    """Every run of a task as a line: the share upright, or the falls, in a hundred windows.
+
+    Medians and quartiles over the seeds are thicker; a view for each cell, and one of all medians.
+    """
+    cells = [name for name, cell in results.cells.items() if cell.task.name == task]
+    measure = "falls" if results.kind(cells[0]) == "balancing" else "upright [%]"
+    views = [
+        rrb.TimeSeriesView(
+            name=f"Medians: {measure}",
+            origin="/medians",
+            axis_x=whole_run(),
+            plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.LeftTop),
+        ),
+        *(
+            rrb.TimeSeriesView(
+                name=_short(cell),
+                origin=f"/cells/{_entity(cell)}",
+                axis_x=whole_run(),
+                plot_legend=rrb.PlotLegend(visible=False),
+            )
+            for cell in cells
+        ),
+    ]
+    layout = rrb.Blueprint(
+        rrb.Horizontal(views[0], rrb.Grid(*views[1:], grid_columns=3), column_shares=[2, 3]),
+        rrb.TimePanel(timeline=STEP, state="collapsed"),
+        rrb.SelectionPanel(state="hidden"),
+        rrb.BlueprintPanel(state="hidden"),
+    )
+    with written(path) as beside:
+        recording = rr.RecordingStream(f"upswing-task-{task}", recording_id=f"task-{task}")
+        recording.save(beside, default_blueprint=layout)
+        rr.send_recording_name(f"all runs of {task}: {measure}", recording=recording)
+        for cell in cells:
+            crowd = results.crowd(cell)
+            last_step, values = _in_points(crowd)
+            middle = np.median(values, axis=0)
+            quartiles = np.quantile(values, (0.25, 0.75), axis=0)
+            place, name, shade = _entity(cell), _short(cell), rgb(cell)
+            for entity, lines, labels, width in (
+                (f"cells/{place}/runs", values, [f"seed {seed}" for seed in crowd.seeds], THIN),
+                (f"cells/{place}/quartiles", quartiles, ["25 %", "75 %"], MIDDLING),
+                (f"cells/{place}/median", middle[None], ["median"], THICK),
+                (f"medians/{place}", middle[None], [name], MIDDLING),
+            ):
+                _send(recording, entity, last_step, lines, labels, width, shade)
+        recording.flush()
+        recording.disconnect()
+
+
+def write_claim(path: Path, results: Results, claim: str) -> None:
+    """The worst, the median and the best run of a claim's cell: how they began and ended."""
+    verdicts = pd.read_parquet(results.folder / VERDICTS).set_index("claim")
+    runs = [
+        str(p).removeprefix("runs/").removesuffix(".rrd") for p in verdicts["recordings"].loc[claim]
+    ]
+    cell = runs[0].rsplit("/", 1)[0]
+    body = body_of(results.cells[cell])
+    limit = 99.0 if results.kind(cell) == "balancing" else 198.0
+    columns = [
+        rrb.Vertical(
+            rrb.Spatial2DView(
+                name=f"{rank}: seed {run.rsplit('-', 1)[1]}",
+                origin=f"/{rank}/pendulum",
+                visual_bounds=rrb.VisualBounds2D(
+                    x_range=(-PENDULUM_SIZE, PENDULUM_SIZE), y_range=(-PENDULUM_SIZE, PENDULUM_SIZE)
+                ),
+            ),
+            rrb.TimeSeriesView(
+                name="Angle [°]",
+                origin=f"/{rank}/angle",
+                axis_y=rrb.ScalarAxis(range=(-limit, limit)),
+                axis_x=whole_run(),
+            ),
+        )
+        for rank, run in zip(RANKS, runs, strict=True)
+    ]
+    layout = rrb.Blueprint(
+        rrb.Horizontal(*columns),
+        rrb.TimePanel(timeline=FRAME, state="collapsed", fps=100.0),
+        rrb.SelectionPanel(state="hidden"),
+        rrb.BlueprintPanel(state="hidden"),
+    )
+    with written(path) as beside:
+        recording = rr.RecordingStream(f"upswing-claim-{claim}", recording_id=f"claim-{claim}")
+        recording.save(beside, default_blueprint=layout)
+        rr.send_recording_name(
+            f"{claim}: worst, median and best run of {cell}", recording=recording
+        )
+        for rank, run in zip(RANKS, runs, strict=True):
+            _claimed_run(recording, rank, results.trajectory(run), body)
+        recording.flush()
+        recording.disconnect()
+
+
+def _claimed_run(
+    recording: rr.RecordingStream, rank: str, trajectory: pd.DataFrame, body: Pendulum
+) -> None:
+    last = int(trajectory["step"].iloc[-1])
+    shown = trajectory[(trajectory["step"] < SHOWN) | (trajectory["step"] > last - SHOWN)]
+    steps, angle = shown["step"].to_numpy(), shown["angle"].to_numpy(float)
+    degrees = np.degrees(angle)
+    breaks = (np.diff(steps, prepend=steps[0]) > 1) | (
+        np.abs(np.diff(degrees, prepend=degrees[0])) > 60
+    )
+    degrees[breaks] = np.nan
+    frames = np.arange(len(steps))
+    recording.log(f"{rank}/angle", rr.SeriesLines(names=["φ"]), static=True)
+    recording.send_columns(
+        f"{rank}/angle",
+        indexes=[rr.TimeColumn(FRAME, sequence=frames), rr.TimeColumn(STEP, sequence=steps)],
+        columns=rr.Scalars.columns(scalars=rounded(degrees)),
+    )
+    tip = -body.orientation * body.length * np.stack([np.sin(angle), np.cos(angle)], axis=1)
+    rods = np.stack([np.zeros_like(tip), tip], axis=1).astype(np.float32)[::DRAWN_EVERY]
+    recording.log(
+        f"{rank}/pendulum/rod",
+        rr.LineStrips2D.from_fields(colors=[[0, 158, 115]], radii=[0.006]),
+        static=True,
+    )
+    recording.log(
+        f"{rank}/pendulum/cart",
+        rr.Boxes2D(half_sizes=[[0.05, 0.015]], centers=[[0, 0]], colors=[[90, 90, 90]]),
+        static=True,
+    )
+    recording.send_columns(
+        f"{rank}/pendulum/rod",
+        indexes=[
+            rr.TimeColumn(FRAME, sequence=frames[::DRAWN_EVERY]),
+            rr.TimeColumn(STEP, sequence=steps[::DRAWN_EVERY]),
+        ],
+        columns=rr.LineStrips2D.columns(strips=list(rods)),
+    )
+
+
+def _in_points(crowd: Crowd) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The windows of a crowd in at most ``POINTS`` groups: last steps, and values (runs, groups)."""
+    windows = len(crowd.last_step)
+    group = -(-windows // POINTS)
+    begins = np.arange(0, windows, group)
+    if crowd.kind == "balancing":
+        values = np.add.reduceat(crowd.falls, begins, axis=1)
+    else:
+        sizes = np.diff(begins, append=windows)
+        values = 100 * np.add.reduceat(crowd.upright_share, begins, axis=1) / sizes
+    ends = np.minimum(begins + group, windows) - 1
+    return crowd.last_step[ends], values
+
+
+def _send(
+    recording: rr.RecordingStream,
+    entity: str,
+    steps: NDArray[np.float64],
+    values: NDArray[np.float64],
+    names: Sequence[str],
+    width: float,
+    colour: tuple[int, int, int],
+) -> None:
+    """Lines of (lines, points) ``values`` as one entity."""
+    count = len(names)
+    # Thin lines let the thick ones through.
+    colours = [(*colour, 110 if width == THIN else 255)] * count
+    lines = rr.SeriesLines(names=list(names), widths=[width] * count, colors=colours)
+    recording.log(entity, lines, static=True)
+    recording.send_columns(
+        entity,
+        indexes=[rr.TimeColumn(STEP, sequence=steps.astype(np.int64))],
+        columns=rr.Scalars.columns(scalars=rounded(values.T).ravel()).partition(
+            [len(names)] * len(steps)
+        ),
+    )
+
+
+def _entity(cell: str) -> str:
+    return cell.split("/", 1)[1]
+
+
+def _short(cell: str) -> str:
+    """A cell without its task: ``table, α = 0.75``."""
+    architecture, alpha = _entity(cell).split("/alpha-")
+    return architecture if alpha == "none" else f"{architecture}, α = {alpha}"
