@@ -23,9 +23,9 @@ from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
 from upswing.recordings.browse import PORT, catalog
 from upswing.recordings.comparison import write_comparisons
+from upswing.recordings.frames import STRETCH, stretches
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import comparison_names
-from upswing.recordings.run import STRETCH, stretches
 from upswing.recordings.selection import select
 from upswing.runs import Results
 from upswing.setting import prepare

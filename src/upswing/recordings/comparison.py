@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from upswing.colours import rgb
 from upswing.pendulum import Pendulum
+from upswing.recordings.frames import DRAWN_EVERY, rounded
 from upswing.recordings.layout import FRAME, PENDULUM_SIZE, STEP, whole_run
-from upswing.recordings.run import DRAWN_EVERY, rounded
 from upswing.runs import Crowd, Results
 from upswing.setting import body_of
 from upswing.store.files import written
