@@ -72,6 +72,10 @@ schema: install ## Renew what is generated from the types: schema and key refere
 	@$(BIN)/upswing schema > config/schema.json
 	@$(BIN)/upswing keys > config/README.md
 
+.PHONY: screenshots
+screenshots: install ## Renew the README's pictures of the recordings (needs a Vulkan driver: Mesa's)
+	@$(BIN)/upswing screenshots results
+
 .PHONY: lock
 lock: ## Renew requirements.lock from pyproject.toml
 	$(PYTHON) -m venv --clear .lock-venv

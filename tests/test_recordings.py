@@ -1,6 +1,7 @@
 """Recordings: what is in them, which are chosen, and how they are served and shown."""
 
 import os
+import re
 import shutil
 import signal
 import socket
@@ -13,6 +14,7 @@ import numpy as np
 import psutil
 import pytest
 import rerun as rr
+from PIL import Image
 
 from tests.helpers import ARCHITECTURES, make_spec, run
 from upswing.claims import load_claims
@@ -26,6 +28,7 @@ from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.frames import STRETCH, stretches
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import comparison_names
+from upswing.recordings.screenshots import take_screenshots
 from upswing.recordings.selection import select
 from upswing.runs import Results
 from upswing.setting import prepare
@@ -326,6 +329,27 @@ def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(results, 
         assert len(viewer.take_screenshot()) > 20_000
     finally:
         viewer.quit()
+
+
+@pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
+def test_screenshots_are_taken(results, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    write_comparisons(results)
+    take_screenshots(
+        results, tmp_path, "full-control/modular-networks-5/alpha-1/seed-0", "full-control"
+    )
+    for name in ("run", "comparison", "catalog"):
+        with Image.open(tmp_path / f"{name}.png") as picture:
+            assert picture.width == 1440
+            assert len(picture.convert("RGB").getcolors(1 << 20)) > 20  # something is drawn
+
+
+def test_the_readme_shows_the_pictures_that_there_are():
+    shown = set(
+        re.findall(r"\((report/pictures/[a-z]+\.png)\)", Path("README.md").read_text("utf-8"))
+    )
+    assert shown == {str(path) for path in Path("report/pictures").glob("*.png")}
+    assert len(shown) == 3
 
 
 def test_rerun_is_installed_beside_python():

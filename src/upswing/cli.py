@@ -78,6 +78,13 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--web-port", type=int, default=9872, help="of the page (default: 9872)")
     added.set_defaults(verb=_browse)
 
+    summary = "Take the README's pictures of the recordings, in a viewer without a screen."
+    added = verbs.add_parser("screenshots", help=summary, description=summary, parents=[results])
+    added.add_argument("--into", type=Path, default=Path("report/pictures"))
+    added.add_argument("--run", default="full-control/modular-networks-5/alpha-1/seed-4")
+    added.add_argument("--task", default="full-control")
+    added.set_defaults(verb=_screenshots)
+
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
         ("comparisons", _comparisons, "Write the recordings that compare runs."),
@@ -162,6 +169,13 @@ def _figure(options: argparse.Namespace) -> None:
     from upswing.figures import draw
 
     draw(options.number, options.results)
+
+
+def _screenshots(options: argparse.Namespace) -> None:
+    from upswing.recordings.screenshots import take_screenshots
+    from upswing.runs import Results
+
+    take_screenshots(Results(options.results), options.into, options.run, options.task)
 
 
 def _comparisons(options: argparse.Namespace) -> None:

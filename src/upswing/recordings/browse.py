@@ -21,11 +21,14 @@ LOOPBACK = "127.0.0.1"
 PORT, WEB_PORT = 9871, 9872
 """Where the catalog and the web viewer are served, where nothing else is said."""
 
+VIEWER = Path(sys.executable).with_name("rerun")
+
 
 class Catalog(NamedTuple):
     """A catalog that is being served."""
 
     url: str  # the catalog, or the one run where there is only one
+    datasets: dict[str, str]  # the address of each task's table
     runs: int
 
 
@@ -51,22 +54,23 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
     ):
         url = str(server.url())
         client = server.client()
+        datasets = {}
         for task in paths:
             layout = Path(folder) / f"{task}.rbl"
             run_layout(kinds[task]).save(f"upswing-{task}", layout)
             dataset = client.get_dataset(task)
             dataset.register_blueprint(layout.as_uri())
+            datasets[task] = f"{server.url()}/entry/{dataset.id}"
             if len(runs) == 1:
                 url = dataset.segment_url(dataset.segment_ids()[0])
-        yield Catalog(url, len(runs))
+        yield Catalog(url, datasets, len(runs))
 
 
 def show(catalog: Catalog, web: bool, web_port: int) -> None:
     """Open a viewer on ``catalog`` and wait until it is closed, or Ctrl-C."""
-    viewer = str(Path(sys.executable).with_name("rerun"))
     if web:
         _check_free(web_port)
-        command = [viewer, "--serve-web", "--bind", LOOPBACK]
+        command = [str(VIEWER), "--serve-web", "--bind", LOOPBACK]
         command += ["--web-viewer-port", str(web_port), catalog.url]
         page = f"http://{LOOPBACK}:{web_port}/?url={quote(catalog.url, safe='')}"
         print(f"{catalog.runs} runs at {page}\nCtrl-C ends it.", flush=True)
@@ -75,7 +79,7 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
             raise BadInput(
                 ["there is no display here; `upswing browse --web` serves a page instead"]
             )
-        command = [viewer, catalog.url]
+        command = [str(VIEWER), catalog.url]
         print(f"{catalog.runs} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it.")
     # A session of its own, so that nothing of the viewer is left behind.
     with subprocess.Popen(command, start_new_session=True) as process:
@@ -85,6 +89,13 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
             print()
         finally:
             _end(process)
+
+
+def free_port() -> int:
+    """A port on loopback that nobody uses."""
+    with socket.socket() as probe:
+        probe.bind((LOOPBACK, 0))
+        return int(probe.getsockname()[1])
 
 
 def has_display() -> bool:
