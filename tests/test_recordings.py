@@ -268,7 +268,8 @@ def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
     assert "browse --web" in capsys.readouterr().err
 
 
-def test_ctrl_c_leaves_no_process_behind(results):
+@pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_leaves_no_process_behind(results, sign):
     web = free_port()
     command = [
         sys.executable, "-m", "upswing.cli", "browse", "--web", "--port", str(free_port()),
@@ -285,7 +286,7 @@ def test_ctrl_c_leaves_no_process_behind(results):
             time.sleep(0.1)
         else:
             pytest.fail(f"no page was served: {process.stdout.read1()}")
-        process.send_signal(signal.SIGINT)
+        process.send_signal(sign)
         assert process.wait(15) == 0
     finally:
         process.kill()

@@ -81,6 +81,9 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
             )
         command = [str(VIEWER), catalog.url]
         print(f"{catalog.runs} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it.")
+    # However it is asked to end, it ends as by Ctrl-C; a shell may have switched that off.
+    for sign in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(sign, signal.default_int_handler)
     # A session of its own, so that nothing of the viewer is left behind.
     with subprocess.Popen(command, start_new_session=True) as process:
         try:

@@ -81,7 +81,11 @@ def _lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory
         "learning": {"reward": trajectory.reward[at], "TD error": trajectory.td_error[at]},
     }
     for entity, columns in lines.items():
-        recording.log(entity, rr.SeriesLines(names=list(columns)), static=True)
+        # Where a pixel holds several steps, their extremes: a mean of actions is no action.
+        style = rr.SeriesLines(
+            names=list(columns), aggregation_policy=rr.components.AggregationPolicy.MinMax
+        )
+        recording.log(entity, style, static=True)
         values = rounded(np.stack(list(columns.values()), axis=1))
         values[frames.gap] = np.nan
         recording.send_columns(
