@@ -5,13 +5,15 @@ The claims themselves stand in ``config/claims.yaml``.
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, RootModel, ValidationError, model_validator
 
 from upswing.config import Strict, listed, read_yaml
 from upswing.problems import BadInput, explained
-from upswing.statistics import Estimate
+
+if TYPE_CHECKING:  # the workflow reads claims, and need not wait for scipy
+    from upswing.statistics import Estimate
 
 Verdict = Literal["reproduced", "partly", "inconclusive", "not reproduced", "not in this study"]
 WEAKEST_FIRST: tuple[Verdict, ...] = (
@@ -137,7 +139,7 @@ class Part(Strict):
         sign = "≥" if self.is_lower else "≤"
         return f"{sign} {self.threshold:g} (partly {sign} {self.partly:g})"
 
-    def could_be_better(self, estimate: Estimate) -> bool:
+    def could_be_better(self, estimate: "Estimate") -> bool:
         """Whether the interval of an estimate reaches the threshold without lying beyond it.
 
         "Partly" then means at least partly: more runs might yet show that the claim holds.
@@ -146,7 +148,7 @@ class Part(Strict):
         worst, best = sorted((sign * estimate.low, sign * estimate.high))
         return worst < sign * self.threshold <= best
 
-    def verdict(self, estimate: Estimate) -> Verdict:
+    def verdict(self, estimate: "Estimate") -> Verdict:
         """What the interval of an estimate says of this part; nothing else is asked."""
         sign = 1 if self.is_lower else -1
         worst, best = sorted((sign * estimate.low, sign * estimate.high))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import groupby, product
 
 from upswing.config import Study
@@ -73,6 +73,7 @@ class Matrix:
                 )
 
 
+@cache
 def training_code(learner: str) -> str:
     """The fingerprint of the code that trains a learner of the family ``learner``."""
     return fingerprint("upswing.train", f"upswing.learners.{learner}", packages=COMPUTING_PACKAGES)
