@@ -1,6 +1,5 @@
 """Recordings: what is in them, which are chosen, and how they are served and shown."""
 
-import os
 import re
 import shutil
 import signal
@@ -20,15 +19,16 @@ from tests.helpers import ARCHITECTURES, make_spec, run
 from upswing.claims import load_claims
 from upswing.cli import main
 from upswing.config import validated
+from upswing.loop import empty_trajectory
 from upswing.matrix import Matrix
 from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
-from upswing.recordings.browse import PORT, catalog
+from upswing.recordings.browse import VIEWER, catalog, free_port
 from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.frames import STRETCH, stretches
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import comparison_names
-from upswing.recordings.screenshots import take_screenshots
+from upswing.recordings.screenshots import headless_viewer, take_screenshots, wait_until_loaded
 from upswing.recordings.selection import select
 from upswing.runs import Results
 from upswing.setting import prepare
@@ -39,7 +39,6 @@ from upswing.tiles import locate
 from upswing.train import train
 from upswing.verdicts import write_verdicts
 
-RERUN = Path(sys.executable).with_name("rerun")
 STUDY = {
     "seeds": 3,
     "tasks": {
@@ -93,9 +92,7 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
 def test_snapshots_are_what_was_known_then():
     spec = make_spec("full-control", "modular-table", 0.5, 4_000)
     setting = prepare(spec, 0)
-    trajectory, looked = np.zeros(0), [(0, look(setting.learner))]
-    from upswing.loop import empty_trajectory
-
+    looked = [(0, look(setting.learner))]
     trajectory = empty_trajectory(4_000)
     setting.advance(trajectory, 0, 4_000)
     looked.append((4_000, look(setting.learner)))
@@ -131,7 +128,7 @@ def test_identical_runs_have_equal_recordings(results, tmp_path):
     ours = {chunk: rows for chunk, rows in _columns(one).items() if "about" not in chunk}
     assert ours == {chunk: rows for chunk, rows in _columns(again).items() if "about" not in chunk}
     assert (
-        subprocess.run([RERUN, "rrd", "verify", one], check=False, capture_output=True).returncode
+        subprocess.run([VIEWER, "rrd", "verify", one], check=False, capture_output=True).returncode
         == 0
     )
 
@@ -222,12 +219,6 @@ def test_without_results_it_says_how_to_make_them(tmp_path, capsys):
 # How they are served and shown.
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def test_the_catalog_lists_every_run_with_its_properties_on_loopback_alone(results):
     port = free_port()
     with catalog(results, results.runs, port) as served:
@@ -257,7 +248,6 @@ def test_a_port_in_use_is_named(results):
             catalog(results, results.runs, port),
         ):
             pass
-    assert port != PORT
 
 
 def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
@@ -268,24 +258,33 @@ def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
     assert "browse --web" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGTERM])
-def test_ctrl_c_leaves_no_process_behind(results, sign):
-    web = free_port()
-    command = [
-        sys.executable, "-m", "upswing.cli", "browse", "--web", "--port", str(free_port()),
-        "--web-port", str(web), "--results", str(results.folder),
-    ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    children = []
-    try:
-        for _ in range(300):
+def browsing(results):
+    """A process that serves a page of the runs, and its children; other ports if these were taken."""
+    for _ in range(3):
+        web, port = free_port(), free_port()
+        command = [
+            sys.executable, "-m", "upswing.cli", "browse", "--web", "--port", str(port),
+            "--web-port", str(web), "--results", str(results.folder),
+        ]  # fmt: skip
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        until = time.monotonic() + 60
+        while process.poll() is None and time.monotonic() < until:
             children = psutil.Process(process.pid).children(recursive=True)
             with socket.socket() as probe:
                 if children and probe.connect_ex(("127.0.0.1", web)) == 0:
-                    break
+                    return process, children
             time.sleep(0.1)
-        else:
-            pytest.fail(f"no page was served: {process.stdout.read1()}")
+        process.kill()
+        said = process.stdout.read()
+        if b"is in use" not in said:
+            break
+    pytest.fail(f"no page was served: {said!r}")
+
+
+@pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_leaves_no_process_behind(results, sign):
+    process, children = browsing(results)
+    try:
         process.send_signal(sign)
         assert process.wait(15) == 0
     finally:
@@ -299,23 +298,17 @@ DRIVERS = list(Path("/usr/share/vulkan/icd.d").glob("*.json"))
 
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
 @pytest.mark.parametrize("kind", ["balancing", "full-control"])
-def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(results, tmp_path, kind):
-    from rerun.experimental import ViewerClient
-
+def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(
+    results, tmp_path, monkeypatch, kind
+):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     recording = next((results.folder / "runs" / kind).rglob("*.rrd"))
     layout = tmp_path / "layout.rbl"
     run_layout(kind).save(f"upswing-{kind}", layout)
-    os.environ.setdefault("XDG_RUNTIME_DIR", str(tmp_path))
-    viewer = ViewerClient.spawn(
-        headless=True, port=free_port(), hide_welcome_screen=True, executable_path=str(RERUN)
-    )
-    try:
+    with headless_viewer() as viewer:
         viewer.open(str(layout), navigate=False)
         viewer.open(str(recording))
-        for _ in range(100):
-            if not viewer.get_state().loading:
-                break
-            time.sleep(0.1)
+        wait_until_loaded(viewer)
         viewer.set_time("frame", sequence=200, play_state="paused")
         time.sleep(0.5)
         views = viewer.get_state().views
@@ -328,8 +321,6 @@ def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(results, 
         }
         assert [view.reports for view in views if view.reports] == []
         assert len(viewer.take_screenshot()) > 20_000
-    finally:
-        viewer.quit()
 
 
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
@@ -354,4 +345,4 @@ def test_the_readme_shows_the_pictures_that_there_are():
 
 
 def test_rerun_is_installed_beside_python():
-    assert shutil.which(str(RERUN))
+    assert shutil.which(str(VIEWER))

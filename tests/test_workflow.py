@@ -192,7 +192,10 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
 def test_logs_and_benchmarks_are_written(study):
     results = study.folder / "results"
     assert len(list((results / "benchmarks").rglob("*.tsv"))) == sum(EVERYTHING.values())
-    assert len(list((results / "logs").rglob("*.log"))) == sum(EVERYTHING.values())
+    logs = list((results / "logs").rglob("*.log"))
+    assert len(logs) == sum(EVERYTHING.values())
+    for log in logs:
+        assert "to repeat it: upswing " in log.read_text("utf-8"), log
 
 
 # The tests from here on change the study, each back to what it was.

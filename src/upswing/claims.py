@@ -195,3 +195,8 @@ def canonical_claims(claims: Mapping[str, Claim]) -> str:
 def weakest(verdicts: list[Verdict]) -> Verdict:
     """The verdict of a claim with such parts."""
     return min(verdicts, key=WEAKEST_FIRST.index)
+
+
+def words_of(verdict: str, could_be_better: bool) -> str:
+    """A verdict as it is shown: "partly" says whether more runs might make it better."""
+    return f"at least {verdict}" if verdict == "partly" and could_be_better else verdict

@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,6 +18,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Jobs run side by side; each computes in one thread.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if options.repeatable:  # a job of the workflow: its log says how to repeat it
+        given = sys.argv[1:] if arguments is None else arguments
+        print("to repeat it:", shlex.join(["upswing", *given]), flush=True)
     try:
         code: int | None = options.verb(options)
     except BadInput as error:
@@ -35,6 +39,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="`make help` lists what runs the whole study.",
     )
     parser.add_argument("--version", action="version", version=f"upswing {__version__}")
+    parser.set_defaults(repeatable=False)
     verbs = parser.add_subparsers(required=True, metavar="VERB")
 
     def verb(name: str, function: object, summary: str) -> argparse.ArgumentParser:
@@ -56,7 +61,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Judge every claim by the runs, write tables/verdicts.parquet and print it.",
     )  # fmt: skip
     added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
-    added.set_defaults(verb=_verdicts)
+    added.set_defaults(verb=_verdicts, repeatable=True)
 
     summary = "Compare two folders of results: verdicts, estimates and runs that differ."
     added = verbs.add_parser("compare", help=summary, description=summary)
@@ -92,7 +97,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     for name, function, summary in verbs_of_results:
         added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
-        added.set_defaults(verb=function)
+        added.set_defaults(verb=function, repeatable=True)
         if name == "report":
             added.add_argument(
                 "--templates", type=Path, default=Path("report"), help="folder of the templates"
@@ -102,9 +107,10 @@ def _parser() -> argparse.ArgumentParser:
     added = verbs.add_parser("figure", help=summary, description=summary)
     added.add_argument("number", type=int, help="5 to 11")
     added.add_argument("results", nargs="?", type=Path, default=Path("results"))
-    added.set_defaults(verb=_figure)
+    added.set_defaults(verb=_figure, repeatable=True)
 
     added = verb("study", _study, "Keep a study's configuration beside its results.")
+    added.set_defaults(repeatable=True)
     added.add_argument("study", help="the study in JSON")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
 

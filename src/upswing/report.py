@@ -11,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from upswing import figures
-from upswing.matrix import Matrix
+from upswing.claims import words_of
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.spec import alpha_text
@@ -19,7 +19,6 @@ from upswing.store.files import written
 from upswing.store.provenance import provenance
 from upswing.study import read_study
 from upswing.tables import CELLS, RUNS, VERDICTS
-from upswing.terminal import words_of
 
 PAGE = "report/index.html"
 
@@ -37,7 +36,6 @@ def write_report(results: Path, templates: Path) -> None:
     style = (templates / "style.css").read_text("utf-8")
     page = environment.get_template("index.html.j2").render(
         study=study,
-        matrix=Matrix(study),
         cells=_rows(results / CELLS),
         runs=len(_rows(results / RUNS)),
         verdicts=_rows(results / VERDICTS),

@@ -6,6 +6,7 @@ import pandas as pd
 from rich.console import Console
 from rich.table import Table
 
+from upswing.claims import words_of
 from upswing.compare import Comparison
 
 STYLES = {
@@ -36,11 +37,6 @@ def print_verdicts(verdicts: pd.DataFrame) -> None:
             f"{row['measure']}\n[dim]{row['note']}[/dim]" if row["note"] else row["measure"],
         )
     Console().print(table)
-
-
-def words_of(verdict: str, could_be_better: bool) -> str:
-    """A verdict as it is shown: "partly" says whether more runs might make it better."""
-    return f"at least {verdict}" if verdict == "partly" and could_be_better else verdict
 
 
 def print_comparison(comparison: Comparison) -> None:

@@ -100,7 +100,6 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     write_recording(
         place.with_name(f"{place.name}.rrd"),
         spec.run(seed),
-        spec.task.kind,
         run.trajectory,
         windows,
         measures,

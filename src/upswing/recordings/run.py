@@ -12,7 +12,7 @@ from upswing.loop import Trajectory
 from upswing.measures import Measures, Windows
 from upswing.pendulum import Pendulum
 from upswing.recordings.frames import Frames, Real, rounded, stretches, time_columns
-from upswing.recordings.layout import SIM_TIME, STEP, run_layout
+from upswing.recordings.layout import SIM_TIME, STEP
 from upswing.recordings.pictures import draw_learned, draw_pendulum, draw_phase_plane
 from upswing.snapshots import Snapshots
 from upswing.store.files import written
@@ -28,26 +28,23 @@ LOGGED_FALLS = 50
 def write_recording(
     path: Path,
     run: str,
-    kind: str,
     trajectory: Trajectory,
     windows: Windows,
     measures: Measures,
     learned: Snapshots,
     body: Pendulum,
     properties: Mapping[str, Any],
-    with_layout: bool = False,
 ) -> None:
     """Write the recording of ``run``, with its parameters and measures as ``properties``.
 
-    The layout is registered with the catalog once, and not in every file; ``with_layout`` embeds it,
-    for a file that is handed out singly.
+    The layout is not in it: it is registered with the catalog once.
     """
     rr.set_strict_mode(True)  # otherwise errors become warnings and data is dropped
     with written(path) as beside:
         recording = rr.RecordingStream(
             f"upswing-{run.split('/')[0]}", recording_id=recording_id(run)
         )
-        recording.save(beside, default_blueprint=run_layout(kind) if with_layout else None)
+        recording.save(beside)
         rr.send_recording_name(run, recording=recording)
         recording.send_property("run", rr.AnyValues(**_known(properties)))
         frames = stretches(trajectory, windows, measures.first_stable_step)
