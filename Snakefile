@@ -44,6 +44,7 @@ wildcard_constraints:
 rule all:
     input:
         f"{RESULTS}/report/index.html",
+        f"{RESULTS}/report/viewer",
         expand(
             f"{RESULTS}/recordings/{{name}}.rrd",
             name=comparison_names(CLAIMS, MATRIX.cells),

@@ -15,61 +15,26 @@ import pytest
 import rerun as rr
 from PIL import Image
 
-from tests.helpers import ARCHITECTURES, make_spec, run
+from tests.helpers import make_spec, run
 from upswing.claims import load_claims
 from upswing.cli import main
-from upswing.config import validated
 from upswing.loop import empty_trajectory
-from upswing.matrix import Matrix
 from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
-from upswing.recordings.browse import VIEWER, catalog, free_port
+from upswing.recordings.browse import catalog, free_port
 from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.frames import STRETCH, stretches
 from upswing.recordings.layout import run_layout
-from upswing.recordings.names import comparison_names
+from upswing.recordings.names import VIEWER, comparison_names
 from upswing.recordings.screenshots import headless_viewer, take_screenshots, wait_until_loaded
 from upswing.recordings.selection import select
-from upswing.runs import Results
 from upswing.setting import prepare
 from upswing.snapshots import look, moments, snapshots
-from upswing.study import canonical, write_study
-from upswing.tables import write_tables
 from upswing.tiles import locate
 from upswing.train import train
-from upswing.verdicts import write_verdicts
 
-STUDY = {
-    "seeds": 3,
-    "tasks": {
-        "balancing": {"kind": "balancing", "steps": 7_000},
-        "full-control": {"kind": "full-control", "steps": 7_000},
-    },
-    "architectures": {
-        name: ARCHITECTURES[name] for name in ("table", "modular-networks-5", "idle")
-    },
-    "experiments": [
-        {"tasks": ["balancing"], "architectures": ["table"], "alphas": [1, 0.1]},
-        {"tasks": ["full-control"], "architectures": ["modular-networks-5"], "alphas": [1]},
-        {"tasks": ["balancing"], "architectures": ["idle"]},
-    ],
-}
 # One small study serves all tests of this file: on one worker.
 pytestmark = pytest.mark.xdist_group("recordings")
-
-
-@pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    """A small study, run and judged."""
-    folder = tmp_path_factory.mktemp("results")
-    study = validated({"study": STUDY})
-    matrix = Matrix(study)
-    write_study(canonical(study), folder)
-    for spec in matrix.cells.values():
-        train(spec, folder)
-    write_tables(folder, matrix)
-    write_verdicts(folder, load_claims(Path("config/claims.yaml")))
-    return Results(folder)
 
 
 # What is recorded.
@@ -235,7 +200,7 @@ def test_the_catalog_lists_every_run_with_its_properties_on_loopback_alone(resul
         table = dataset.segment_table().to_pandas()
         assert len(table) == 9
         assert {f"property:run:{name}" for name in ("alpha", "seed", "falls")} <= set(table.columns)
-        assert len(dataset.blueprints()) == 1
+        assert len(dataset.blueprints()) == 2  # of a run, and of the table
 
 
 def test_a_port_in_use_is_named(results):
@@ -258,12 +223,12 @@ def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
     assert "browse --web" in capsys.readouterr().err
 
 
-def browsing(results):
+def browsing(results, *words):
     """A process that serves a page of the runs, and its children; other ports if these were taken."""
     for _ in range(3):
         web, port = free_port(), free_port()
         command = [
-            sys.executable, "-m", "upswing.cli", "browse", "--web", "--port", str(port),
+            sys.executable, "-m", "upswing.cli", "browse", *words, "--web", "--port", str(port),
             "--web-port", str(web), "--results", str(results.folder),
         ]  # fmt: skip
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

@@ -84,7 +84,7 @@ class Study:
 
 EVERYTHING = {
     "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparisons": 1,
-    "figure": FIGURES_OF_SMALL, "report": 1,
+    "figure": FIGURES_OF_SMALL, "viewer": 1, "report": 1,
 }  # fmt: skip
 
 
@@ -152,9 +152,10 @@ def test_the_page_needs_no_network(study):
     links = re.findall(r"""(?:src|href|url\()\s*=?\s*["']?([^"')\s>]+)""", page)
     assert links
     for link in links:
-        assert link.startswith(("data:", "#", "../runs/")), link
-        if link.startswith("../"):
-            assert (study.folder / "results/report" / link).is_file()
+        assert link.startswith(("data:", "#", "viewer/index.html#")), link
+        if link.startswith("viewer/"):  # what the page shows is kept beside it
+            recording = link.partition("#")[2]
+            assert (study.folder / f"results/report/viewer/recordings/{recording}.js").is_file()
 
 
 def test_the_command_in_a_log_repeats_its_run(study, tmp_path):
@@ -186,7 +187,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 7
+    assert rules == 8
 
 
 def test_logs_and_benchmarks_are_written(study):
@@ -230,7 +231,7 @@ def test_a_threshold_judges_again_and_remakes_the_page(study):
     claims.write_text(
         claims.read_text("utf-8").replace("at_least: 0.98", "at_least: 0.97"), "utf-8"
     )
-    assert study.jobs() == {"verdicts": 1, "comparisons": 1, "report": 1}
+    assert study.jobs() == {"verdicts": 1, "comparisons": 1, "viewer": 1, "report": 1}
 
 
 def test_a_comment_among_the_claims_judges_nothing(study):

@@ -93,12 +93,17 @@ def _parser() -> argparse.ArgumentParser:
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
         ("comparisons", _comparisons, "Write the recordings that compare runs."),
+        (
+            "viewer",
+            _viewer,
+            "Write report/viewer: the report's recordings, to open without a server.",
+        ),
         ("report", _report, "Write report/index.html."),
     )
     for name, function, summary in verbs_of_results:
         added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
         added.set_defaults(verb=function, repeatable=True)
-        if name == "report":
+        if name in ("viewer", "report"):
             added.add_argument(
                 "--templates", type=Path, default=Path("report"), help="folder of the templates"
             )
@@ -159,6 +164,7 @@ def _compare(options: argparse.Namespace) -> int:
 
 def _browse(options: argparse.Namespace) -> None:
     from upswing.recordings.browse import catalog, show
+    from upswing.recordings.lending import PORT, lending
     from upswing.recordings.selection import select
     from upswing.runs import Results
 
@@ -167,7 +173,9 @@ def _browse(options: argparse.Namespace) -> None:
     if options.print:
         print("\n".join(str(options.results / recording) for recording in runs["recording"]))
         return
-    with catalog(results, runs, options.port) as served:
+    with catalog(results, runs, options.port) as served, lending(results) as port:
+        if port is None:
+            print(f"port {PORT} is in use: the report's links open only the runs kept beside it")
         show(served, options.web, options.web_port)
 
 
@@ -190,6 +198,14 @@ def _comparisons(options: argparse.Namespace) -> None:
 
     for path in write_comparisons(Results(options.results)):
         print(path)
+
+
+def _viewer(options: argparse.Namespace) -> None:
+    from upswing.recordings.viewer import write_viewer
+    from upswing.runs import Results
+
+    for name in write_viewer(Results(options.results), options.templates):
+        print(name)
 
 
 def _report(options: argparse.Namespace) -> None:

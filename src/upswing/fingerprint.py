@@ -58,7 +58,7 @@ def _source(module: str) -> Path | None:
 
 @cache
 def _tree(module: str) -> ast.Module:
-    """The syntax of a module without comments, docstrings and layout."""
+    """The syntax of a module without comments, docstrings, layout and what only type checkers read."""
     path = _source(module)
     if path is None:
         raise ModuleNotFoundError(f"no source for module {module}")
@@ -66,8 +66,7 @@ def _tree(module: str) -> ast.Module:
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
         if isinstance(body, list):
-            # A bare string is a docstring: of a module, class, function or constant.
-            node.body = [part for part in body if not _is_bare_string(part)]  # type: ignore[attr-defined]
+            node.body = [part for part in body if not _is_idle(part)]  # type: ignore[attr-defined]
     return tree
 
 
@@ -85,7 +84,11 @@ def _imports(module: str) -> Iterator[str]:
                 yield name
 
 
-def _is_bare_string(node: ast.stmt) -> bool:
+def _is_idle(node: ast.stmt) -> bool:
+    """Whether a statement does nothing when the program runs."""
+    if isinstance(node, ast.If):
+        return isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+    # A bare string is a docstring: of a module, class, function or constant.
     return (
         isinstance(node, ast.Expr)
         and isinstance(node.value, ast.Constant)

@@ -14,6 +14,7 @@ from upswing import figures
 from upswing.claims import words_of
 from upswing.problems import BadInput
 from upswing.readings import Readings
+from upswing.recordings.names import recording_id
 from upswing.spec import alpha_text
 from upswing.store.files import written
 from upswing.store.provenance import provenance
@@ -31,7 +32,12 @@ def write_report(results: Path, templates: Path) -> None:
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     environment.filters.update(
-        number=_number, percent=_percent, spread=_spread, alpha=_alpha, verdict=_verdict
+        number=_number,
+        percent=_percent,
+        spread=_spread,
+        alpha=_alpha,
+        verdict=_verdict,
+        recording=_recording,
     )
     style = (templates / "style.css").read_text("utf-8")
     page = environment.get_template("index.html.j2").render(
@@ -109,6 +115,11 @@ def _spread(row: dict[str, Any], measure: str, digits: int = 0, factor: float = 
 
 def _alpha(value: float | None) -> str:
     return "–" if value is None or pd.isna(value) else alpha_text(value)
+
+
+def _recording(run: str) -> str:
+    """The name of a run's recording, from its id or its path."""
+    return recording_id(run.removeprefix("runs/").removesuffix(".rrd"))
 
 
 def _verdict(row: dict[str, Any]) -> str:

@@ -1,4 +1,4 @@
-# Recordings that compare runs.
+# Recordings that compare runs, and those that the page shows.
 
 
 rule comparisons:
@@ -24,3 +24,24 @@ rule comparisons:
         code=fingerprint("upswing.recordings.comparison", packages=["rerun-sdk"]),
     shell:
         "upswing comparisons {RESULTS:q} > {log:q} 2>&1"
+
+
+rule viewer:
+    input:
+        f"{RESULTS}/study.json",
+        f"{RESULTS}/tables/runs.parquet",
+        f"{RESULTS}/tables/verdicts.parquet",
+        expand(f"{RESULTS}/figures/fig{{number:02d}}.json", number=DRAWABLE),
+        expand(f"{RESULTS}/runs/{{run}}.rrd", run=MATRIX.runs),
+        rules.comparisons.output,
+        "report/viewer.html",
+    output:
+        directory(f"{RESULTS}/report/viewer"),
+    log:
+        f"{RESULTS}/logs/viewer.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/viewer.tsv"
+    params:
+        code=fingerprint("upswing.recordings.viewer", packages=["rerun-sdk"]),
+    shell:
+        "upswing viewer {RESULTS:q} > {log:q} 2>&1"

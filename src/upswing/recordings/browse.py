@@ -15,19 +15,18 @@ from urllib.parse import quote
 import pandas as pd
 
 from upswing.problems import BadInput
+from upswing.recordings.lending import LOOPBACK
+from upswing.recordings.names import VIEWER
 from upswing.runs import Results
 
-LOOPBACK = "127.0.0.1"
 PORT, WEB_PORT = 9871, 9872
 """Where the catalog and the web viewer are served, where nothing else is said."""
-
-VIEWER = Path(sys.executable).with_name("rerun")
 
 
 class Catalog(NamedTuple):
     """A catalog that is being served."""
 
-    url: str  # the catalog, or the one run where there is only one
+    url: str  # the catalog; the one task, or the one run, where there is only one
     datasets: dict[str, str]  # the address of each task's table
     runs: int
 
@@ -37,7 +36,7 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
     """Serve the recordings of ``runs`` on 127.0.0.1, a dataset for each task, with its layout."""
     import rerun as rr
 
-    from upswing.recordings.layout import run_layout
+    from upswing.recordings.layout import run_layout, table_layout
 
     _check_free(port)
     paths = {
@@ -60,9 +59,14 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
             run_layout(kinds[task]).save(f"upswing-{task}", layout)
             dataset = client.get_dataset(task)
             dataset.register_blueprint(layout.as_uri())
+            table = Path(folder) / f"{task}-table.rbl"
+            table_layout(kinds[task]).save(f"upswing-{task}-table", table)
+            dataset.register_blueprint(table.as_uri(), segment_table=True)
             datasets[task] = f"{server.url()}/entry/{dataset.id}"
             if len(runs) == 1:
                 url = dataset.segment_url(dataset.segment_ids()[0])
+            elif len(paths) == 1:
+                url = datasets[task]
         yield Catalog(url, datasets, len(runs))
 
 

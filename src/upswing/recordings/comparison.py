@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from upswing.colours import rgb
 from upswing.pendulum import Pendulum
-from upswing.recordings.frames import DRAWN_EVERY, rounded
-from upswing.recordings.layout import FRAME, PENDULUM_SIZE, STEP, whole_run
+from upswing.recordings.frames import DRAWN_EVERY, FRAME, STEP, rounded
+from upswing.recordings.layout import PENDULUM_SIZE, whole_run
 from upswing.runs import Crowd, Results
 from upswing.setting import body_of
 from upswing.store.files import written
@@ -145,13 +145,17 @@ def write_claim(path: Path, results: Results, claim: str) -> None:
             f"{claim}: worst, median and best run of {cell}", recording=recording
         )
         for rank, run in zip(RANKS, runs, strict=True):
-            _claimed_run(recording, rank, results.trajectory(run), body)
+            _claimed_run(recording, rank, results.trajectory(run), body, rgb(cell))
         recording.flush()
         recording.disconnect()
 
 
 def _claimed_run(
-    recording: rr.RecordingStream, rank: str, trajectory: pd.DataFrame, body: Pendulum
+    recording: rr.RecordingStream,
+    rank: str,
+    trajectory: pd.DataFrame,
+    body: Pendulum,
+    shade: tuple[int, int, int],
 ) -> None:
     last = int(trajectory["step"].iloc[-1])
     shown = trajectory[(trajectory["step"] < SHOWN) | (trajectory["step"] > last - SHOWN)]
@@ -162,7 +166,7 @@ def _claimed_run(
     )
     degrees[breaks] = np.nan
     frames = np.arange(len(steps))
-    recording.log(f"{rank}/angle", rr.SeriesLines(names=["φ"]), static=True)
+    recording.log(f"{rank}/angle", rr.SeriesLines(names=["φ"], colors=[shade]), static=True)
     recording.send_columns(
         f"{rank}/angle",
         indexes=[rr.TimeColumn(FRAME, sequence=frames), rr.TimeColumn(STEP, sequence=steps)],
@@ -172,7 +176,7 @@ def _claimed_run(
     rods = np.stack([np.zeros_like(tip), tip], axis=1).astype(np.float32)[::DRAWN_EVERY]
     recording.log(
         f"{rank}/pendulum/rod",
-        rr.LineStrips2D.from_fields(colors=[[0, 158, 115]], radii=[0.006]),
+        rr.LineStrips2D.from_fields(colors=[shade], radii=[0.006]),
         static=True,
     )
     recording.log(

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from upswing.loop import Trajectory
 from upswing.measures import Windows
 from upswing.pendulum import Pendulum
-from upswing.recordings.layout import FRAME, SIM_TIME, STEP, TIMELINES
+
+FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
+TIMELINES = (FRAME, STEP, SIM_TIME)
 
 STRETCH = 450
 """Of the beginning, the first success, the worst stretch and the end, so much is shown [steps]."""

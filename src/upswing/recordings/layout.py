@@ -3,8 +3,8 @@
 import rerun as rr
 import rerun.blueprint as rrb
 
-FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
-TIMELINES = (FRAME, STEP, SIM_TIME)
+from upswing.recordings.frames import FRAME
+
 PENDULUM_SIZE = 0.26
 """Half the height of the picture of the pendulum [m]."""
 
@@ -13,6 +13,36 @@ def whole_run() -> rrb.TimeAxis:
     """A time axis that shows all there is; a viewer's own would show the neighbourhood of the cursor."""
     unlimited = rr.TimeRangeBoundary.infinite()
     return rrb.TimeAxis(view_range=rr.TimeRange(start=unlimited, end=unlimited))
+
+
+FIRST_COLUMNS = {
+    "balancing": ("falls", "falls_last_fifth", "upright_share"),
+    "full-control": ("upright_share", "above_horizontal_share", "falls"),
+}
+"""The measures that a catalog's table of a kind of task shows first."""
+
+HIDDEN_COLUMNS = ("digest", "dirty", "git_commit", "spec", "task", "seconds", "steps_per_second")
+
+
+def table_layout(kind: str) -> rrb.TableBlueprint:
+    """The catalog's table of the runs of a ``kind`` of task: what a run is, then what came of it."""
+    first = ("architecture", "alpha", "seed", *FIRST_COLUMNS[kind], "first_stable_step")
+    rest = ("mean_reward", "steps")
+    columns = [rrb.table.Column("recording link", name="recording")]
+    columns += [
+        rrb.table.Column(f"property:run:{name}", name=name.replace("_", " "))
+        for name in (*first, *rest)
+    ]
+    hidden = [f"property:run:{name}" for name in HIDDEN_COLUMNS]
+    hidden += [f"property:RecordingInfo:{name}" for name in ("name", "start_time")]
+    columns += [rrb.table.Column(name, visible=False) for name in hidden]
+    best_first = rrb.table.SortBy(
+        f"property:run:{FIRST_COLUMNS[kind][0]}",
+        direction="ascending" if kind == "balancing" else "descending",
+    )
+    return rrb.TableBlueprint(
+        table_layout=rrb.table.TableLayout(columns=columns), sort_by=best_first
+    )
 
 
 def run_layout(kind: str) -> rrb.Blueprint:
@@ -41,7 +71,7 @@ def run_layout(kind: str) -> rrb.Blueprint:
         ),
         rrb.Horizontal(
             rrb.Spatial2DView(
-                name="Phase plane on the policy",
+                name="Phase plane, policy",
                 origin="/phase",
                 contents=["/phase/**", "/learned/policy"],
             ),

@@ -1,12 +1,24 @@
-"""The names of a study's comparisons; light, so that the workflow can read it."""
+"""The names of recordings; light, so that the workflow and the report can read it."""
 
+import sys
 from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from upswing.claims import Claim
-from upswing.spec import Spec
+if TYPE_CHECKING:
+    from upswing.claims import Claim
+    from upswing.spec import Spec
+
+VIEWER = Path(sys.executable).with_name("rerun")
+"""The program that Rerun installs."""
 
 
-def comparison_names(claims: Mapping[str, Claim], cells: Mapping[str, Spec]) -> list[str]:
+def recording_id(run: str) -> str:
+    """The id of a run's recording; the viewer takes letters, digits, ``_`` and ``-`` only."""
+    return run.replace("/", "_").replace(".", "-")
+
+
+def comparison_names(claims: "Mapping[str, Claim]", cells: "Mapping[str, Spec]") -> list[str]:
     """``task-…`` for each task, and ``claim-…`` for each claim whose cell the study has."""
     tasks = dict.fromkeys(cell.task.name for cell in cells.values())
     shown = [name for name, claim in claims.items() if claim.cell in cells]

@@ -11,8 +11,17 @@ from numpy.typing import NDArray
 from upswing.loop import Trajectory
 from upswing.measures import Measures, Windows
 from upswing.pendulum import Pendulum
-from upswing.recordings.frames import Frames, Real, rounded, stretches, time_columns
-from upswing.recordings.layout import SIM_TIME, STEP
+from upswing.recordings.frames import (
+    SIM_TIME,
+    STEP,
+    TIMELINES,
+    Frames,
+    Real,
+    rounded,
+    stretches,
+    time_columns,
+)
+from upswing.recordings.names import recording_id
 from upswing.recordings.pictures import draw_learned, draw_pendulum, draw_phase_plane
 from upswing.snapshots import Snapshots
 from upswing.store.files import written
@@ -57,11 +66,6 @@ def write_recording(
         _events(recording, frames, trajectory, measures)
         recording.flush()
         recording.disconnect()
-
-
-def recording_id(run: str) -> str:
-    """The id of a run's recording; the viewer takes letters, digits, ``_`` and ``-`` only."""
-    return run.replace("/", "_").replace(".", "-")
 
 
 def _lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:
@@ -134,13 +138,17 @@ def _events(
     if measures.first_stable_step is not None:
         events.append((measures.first_stable_step, "INFO", "first stable window begins"))
     events.sort()
-    recording.send_columns(
-        "events",
-        indexes=time_columns(np.array([step for step, _, _ in events]), frames),
-        columns=rr.TextLog.columns(
-            text=[text for _, _, text in events], level=[level for _, level, _ in events]
-        ),
-    )
+    shown = set(frames.steps[~frames.gap].tolist())
+    # What happened outside the stretches has no frame.
+    for inside, timelines in ((True, TIMELINES), (False, (STEP, SIM_TIME))):
+        if some := [event for event in events if (event[0] in shown) == inside]:
+            recording.send_columns(
+                "events",
+                indexes=time_columns(np.array([step for step, _, _ in some]), frames, timelines),
+                columns=rr.TextLog.columns(
+                    text=[text for _, _, text in some], level=[level for _, level, _ in some]
+                ),
+            )
 
 
 def _about(recording: rr.RecordingStream, run: str, properties: Mapping[str, Any]) -> None:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from PIL import Image
 
-from upswing.recordings.browse import VIEWER, catalog, free_port
+from upswing.recordings.browse import catalog, free_port
 from upswing.recordings.layout import run_layout
+from upswing.recordings.names import VIEWER
 from upswing.runs import Results
 from upswing.store.files import written
 

@@ -1,0 +1,65 @@
+"""What the tests of several files share."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from tests.helpers import ARCHITECTURES
+from upswing.claims import load_claims
+from upswing.config import validated
+from upswing.matrix import Matrix
+from upswing.runs import Results
+from upswing.study import canonical, write_study
+from upswing.tables import write_tables
+from upswing.train import train
+from upswing.verdicts import write_verdicts
+
+STUDY = {
+    "seeds": 3,
+    "tasks": {
+        "balancing": {"kind": "balancing", "steps": 7_000},
+        "full-control": {"kind": "full-control", "steps": 7_000},
+    },
+    "architectures": {
+        name: ARCHITECTURES[name] for name in ("table", "modular-networks-5", "idle")
+    },
+    "experiments": [
+        {"tasks": ["balancing"], "architectures": ["table"], "alphas": [1, 0.1]},
+        {"tasks": ["full-control"], "architectures": ["modular-networks-5"], "alphas": [1]},
+        {"tasks": ["balancing"], "architectures": ["idle"]},
+    ],
+}
+
+
+@pytest.fixture(scope="session")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    """A small study, run and judged."""
+    folder = tmp_path_factory.mktemp("results")
+    study = validated({"study": STUDY})
+    matrix = Matrix(study)
+    write_study(canonical(study), folder)
+    for spec in matrix.cells.values():
+        train(spec, folder)
+    write_tables(folder, matrix)
+    write_verdicts(folder, load_claims(Path("config/claims.yaml")))
+    return Results(folder)
+
+
+CHROMIUM = Path("/usr/bin/chromium")
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """A Chromium without a screen that draws in software."""
+    if not CHROMIUM.exists():
+        pytest.skip("no Chromium: install Debian's package chromium")
+    options = [
+        "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+        "--disable-background-networking", "--disable-component-update",
+    ]  # fmt: skip
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=options)
+        yield chromium
+        chromium.close()
