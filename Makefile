@@ -13,7 +13,7 @@ INSTALLED := $(VENV)/.installed
 
 .PHONY: help
 help: ## Say what there is to make
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 .PHONY: install
 install: $(INSTALLED) ## Set up the virtual environment .venv from the lock file
@@ -75,6 +75,15 @@ schema: install ## Renew what is generated from the types: schema and key refere
 .PHONY: screenshots
 screenshots: install ## Renew the README's pictures of the recordings (needs a Vulkan driver: Mesa's)
 	@$(BIN)/upswing screenshots results
+
+.PHONY: readme
+readme: install ## Renew what the README shows of the results: verdicts, figures, deviations
+	@$(BIN)/upswing readme results
+
+.PHONY: snakemake-report
+snakemake-report: install ## Snakemake's own report: every output with its rule, code and time
+	@$(SNAKEMAKE) --configfile config/config.yaml --report results/report/snakemake.html
+	@echo "Snakemake's report is at results/report/snakemake.html"
 
 .PHONY: lock
 lock: ## Renew requirements.lock from pyproject.toml

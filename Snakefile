@@ -6,12 +6,13 @@ from snakemake.exceptions import WorkflowError
 
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
-from upswing.figures import FIGURES
-from upswing.fingerprint import fingerprint
+from upswing.figures import FIGURES, drawable, module_of
+from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
 from upswing.matrix import RUN_FILES, Matrix, training_code
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.study import canonical
+from upswing.sweeps.plan import content_of, groups, load_sweeps
 
 if not workflow.configfiles:
 
@@ -21,24 +22,24 @@ if not workflow.configfiles:
 try:
     STUDY = from_snakemake(workflow.configfiles, config)
     CLAIMS = load_claims(Path("config/claims.yaml"))
+    SWEEPS = load_sweeps(Path("config/readings.yaml"), STUDY)
 except BadInput as error:
     raise WorkflowError(str(error)) from None
 
 RESULTS = STUDY.results
 MATRIX = Matrix(STUDY)
 # A figure can be drawn when all cells that it shows are in the study.
-DRAWABLE = [
-    number
-    for number, figure in FIGURES.items()
-    if set(figure.cells) <= set(MATRIX.cells)
-]
+DRAWABLE = drawable(MATRIX.cells)
+
+
+report: "workflow/report/study.rst"
 
 
 wildcard_constraints:
     task="[a-z0-9-]+",
     architecture="[a-z0-9-]+",
     alpha="[0-9.]+|none",
-    number="[0-9]{2}",
+    figure="[a-z0-9-]+",
 
 
 rule all:
@@ -56,4 +57,5 @@ include: "workflow/rules/train.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/recordings.smk"
+include: "workflow/rules/readings.smk"
 include: "workflow/rules/report.smk"

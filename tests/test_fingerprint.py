@@ -16,7 +16,7 @@ ASK = """
 from upswing.matrix import training_code
 from upswing.fingerprint import fingerprint
 print(training_code("table"), training_code("networks"), fingerprint("upswing.figures.fig05"),
-      fingerprint("upswing.report"))
+      fingerprint("upswing.report.page"))
 """
 TABLE, NETWORKS, FIGURE, REPORT = range(4)
 
@@ -68,7 +68,7 @@ def changed_by(package, file, old, new):
         ("learners/table.py", "+= error", "+= 2 * error", {TABLE}),
         ("learners/one_hidden.py", "STALE = -1", "STALE = -2", {NETWORKS}),
         ("figures/fig05.py", "5_000", "4_000", {FIGURE}),
-        ("report.py", '"–"', '"-"', {REPORT}),
+        ("report/words.py", '"–"', '"-"', {REPORT}),
     ],
 )
 def test_who_notices_an_edit(package, file, old, new, expected):

@@ -39,7 +39,7 @@ SMALL = {
         {"tasks": ["full-control"], "architectures": ["idle", "random"]},
     ],
 }
-FIGURES_OF_SMALL = 3  # 5, 7 and 8 have all their cells
+FIGURES_OF_SMALL = 6  # 5, 7 and 8 have all their cells, and there are three of ours
 
 
 class Study:
@@ -140,18 +140,19 @@ def test_every_claim_has_a_verdict(study):
 def test_the_page_says_which_figures_it_has_not_and_what_they_need(study):
     page = (study.folder / "results/report/index.html").read_text("utf-8")
     for number in (5, 7, 8):
-        assert f'alt="Figure {number}:' in page
+        assert f'alt="Figure {number}.' in page
     for number in (6, 9, 10, 11):
         assert f"Figure {number}.</strong>" in page
-        assert f'alt="Figure {number}:' not in page
-        assert all(cell in page for cell in FIGURES[number].cells)
+        assert f'alt="Figure {number}.' not in page
+        assert all(cell in page for cell in FIGURES[f"fig{number:02d}"].cells)
 
 
 def test_the_page_needs_no_network(study):
     page = (study.folder / "results/report/index.html").read_text("utf-8")
-    links = re.findall(r"""(?:src|href|url\()\s*=?\s*["']?([^"')\s>]+)""", page)
+    links = re.findall(r"""<[^>]*?(?:src|href)=["']([^"']+)""", page)
     assert links
-    for link in links:
+    shown = page[: page.index('id="runs-table"')]
+    for link in re.findall(r"""<[^>]*?(?:src|href)=["']([^"']+)""", shown):
         assert link.startswith(("data:", "#", "viewer/index.html#")), link
         if link.startswith("viewer/"):  # what the page shows is kept beside it
             recording = link.partition("#")[2]
@@ -187,7 +188,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 8
+    assert rules == 9
 
 
 def test_logs_and_benchmarks_are_written(study):
@@ -211,6 +212,14 @@ def test_a_new_alpha_runs_its_cells_and_what_follows(study):
     study.write(SMALL)
     assert "train_seeds_0_to_1" not in study.jobs()
     assert study.jobs() == {}
+
+
+def test_snakemakes_own_report_shows_the_figures(study):
+    done = study.snakemake("--report", "own.html")
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (study.folder / "own.html").read_text("utf-8")
+    for part in ("Figures", "The page", "fig05", "every claim and its verdict"):
+        assert part in page
 
 
 def test_a_touched_source_reruns_nothing(study):

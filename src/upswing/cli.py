@@ -90,6 +90,12 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--task", default="full-control")
     added.set_defaults(verb=_screenshots)
 
+    summary = "Renew what the README shows of the results."
+    added = verbs.add_parser("readme", help=summary, description=summary, parents=[results])
+    added.add_argument("--templates", type=Path, default=Path("report"))
+    added.add_argument("--readme", type=Path, default=Path("README.md"))
+    added.set_defaults(verb=_readme)
+
     verbs_of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
         ("comparisons", _comparisons, "Write the recordings that compare runs."),
@@ -108,11 +114,19 @@ def _parser() -> argparse.ArgumentParser:
                 "--templates", type=Path, default=Path("report"), help="folder of the templates"
             )
 
-    summary = "Draw a figure of the thesis from the results, as SVG and PNG."
+    summary = "Draw a figure from the results, as SVG and PNG."
     added = verbs.add_parser("figure", help=summary, description=summary)
-    added.add_argument("number", type=int, help="5 to 11")
+    added.add_argument("figure", help="5 to 11, as in the thesis, or the name of one of ours")
     added.add_argument("results", nargs="?", type=Path, default=Path("results"))
     added.set_defaults(verb=_figure, repeatable=True)
+
+    summary = "Run cells of the study under a group of other readings and keep the measures."
+    added = verbs.add_parser("sweep", help=summary, description=summary)
+    added.add_argument("sweep", help="its name in the file of sweeps")
+    added.add_argument("group", help="the name of the group of readings")
+    added.add_argument("results", nargs="?", type=Path, default=Path("results"))
+    added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
+    added.set_defaults(verb=_sweep, repeatable=True)
 
     added = verb("study", _study, "Keep a study's configuration beside its results.")
     added.set_defaults(repeatable=True)
@@ -182,7 +196,7 @@ def _browse(options: argparse.Namespace) -> None:
 def _figure(options: argparse.Namespace) -> None:
     from upswing.figures import draw
 
-    draw(options.number, options.results)
+    draw(options.figure, options.results)
 
 
 def _screenshots(options: argparse.Namespace) -> None:
@@ -208,10 +222,32 @@ def _viewer(options: argparse.Namespace) -> None:
         print(name)
 
 
+def _readme(options: argparse.Namespace) -> None:
+    from upswing.readme import write_readme
+
+    write_readme(options.results, options.templates, options.readme)
+
+
 def _report(options: argparse.Namespace) -> None:
-    from upswing.report import write_report
+    from upswing.report.page import write_report
 
     write_report(options.results, options.templates)
+
+
+def _sweep(options: argparse.Namespace) -> None:
+    from upswing.problems import near
+    from upswing.study import read_study
+    from upswing.sweeps.plan import load_sweeps
+    from upswing.sweeps.sweep import write_group
+
+    study = read_study(options.results)
+    sweeps = load_sweeps(options.sweeps, study)
+    if options.sweep not in sweeps:
+        raise BadInput(
+            [f"{options.sweeps}: {options.sweep}: no such sweep; {near(options.sweep, sweeps)}"]
+        )
+    sweep = sweeps[options.sweep]
+    print(write_group(options.results, study, options.sweep, sweep, options.group))
 
 
 def _study(options: argparse.Namespace) -> None:

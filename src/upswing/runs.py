@@ -117,13 +117,21 @@ class Results:
     def median_run(self, cell: str) -> OneRun:
         """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
         ordered = self.in_order(cell)
-        chosen = ordered.iloc[(len(ordered) - 1) // 2]
+        return self._one(cell, ordered.iloc[(len(ordered) - 1) // 2])
+
+    def worst_median_best(self, cell: str) -> list[OneRun]:
+        """The first, the middle and the last run of a cell, in the order of its runs."""
+        ordered = self.in_order(cell)
+        places = (0, (len(ordered) - 1) // 2, len(ordered) - 1)
+        return [self._one(cell, ordered.iloc[place]) for place in places]
+
+    def _one(self, cell: str, row: pd.Series) -> OneRun:
         return OneRun(
-            chosen["run"],
+            row["run"],
             self.kind(cell),
-            int(chosen["seed"]),
-            self.trajectory(chosen["run"]),
-            self._read(chosen["run"], "windows"),
+            int(row["seed"]),
+            self.trajectory(row["run"]),
+            self._read(row["run"], "windows"),
         )
 
     def trajectory(self, run: str) -> pd.DataFrame:

@@ -26,6 +26,9 @@ class Evidence(NamedTuple):
     cells: str
     measure: str
     threshold: str
+    holds_from: float  # the threshold itself
+    partly_from: float
+    at_least: bool  # whether it is a lower one
     estimate: float
     low: float
     high: float
@@ -79,6 +82,9 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
                     cells=" : ".join(cells),
                     measure=_measure(part),
                     threshold=part.threshold_text,
+                    holds_from=part.threshold,
+                    partly_from=float(part.partly),
+                    at_least=part.is_lower,
                     estimate=estimate.value,
                     low=estimate.low,
                     high=estimate.high,

@@ -1,8 +1,8 @@
-# Figures 5–11, one job each.
+# Figures, one job each.
 
 
 def figure_inputs(wildcards):
-    cells = FIGURES[int(wildcards.number)].cells
+    cells = FIGURES[wildcards.figure].cells or MATRIX.cells
     runs = [
         MATRIX.cells[cell].run(seed)
         for cell in cells
@@ -20,16 +20,21 @@ rule figure:
         f"{RESULTS}/tables/runs.parquet",
         figure_inputs,
     output:
-        f"{RESULTS}/figures/fig{{number}}.svg",
-        f"{RESULTS}/figures/fig{{number}}.png",
-        f"{RESULTS}/figures/fig{{number}}.json",
+        report(
+            f"{RESULTS}/figures/{{figure}}.svg",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels={"figure": "{figure}"},
+        ),
+        f"{RESULTS}/figures/{{figure}}.png",
+        f"{RESULTS}/figures/{{figure}}.json",
     log:
-        f"{RESULTS}/logs/figure/{{number}}.log",
+        f"{RESULTS}/logs/figure/{{figure}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/figure/{{number}}.tsv"
+        f"{RESULTS}/benchmarks/figure/{{figure}}.tsv"
     params:
         code=lambda wildcards: fingerprint(
-            f"upswing.figures.fig{wildcards.number}", packages=["matplotlib"]
+            module_of(wildcards.figure), packages=["matplotlib"]
         ),
     shell:
-        "upswing figure {wildcards.number} {RESULTS:q} > {log:q} 2>&1"
+        "upswing figure {wildcards.figure} {RESULTS:q} > {log:q} 2>&1"

@@ -31,7 +31,7 @@ rule viewer:
         f"{RESULTS}/study.json",
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/verdicts.parquet",
-        expand(f"{RESULTS}/figures/fig{{number:02d}}.json", number=DRAWABLE),
+        expand(f"{RESULTS}/figures/{{figure}}.json", figure=DRAWABLE),
         expand(f"{RESULTS}/runs/{{run}}.rrd", run=MATRIX.runs),
         rules.comparisons.output,
         "report/viewer.html",

@@ -1,5 +1,11 @@
 # The page.
 
+TEMPLATES = sorted(
+    str(path)
+    for pattern in ("*.j2", "*.css", "*.js", "*.yaml", "parts/*", "drawings/*")
+    for path in Path("report").glob(pattern)
+)
+
 
 rule report:
     input:
@@ -9,19 +15,23 @@ rule report:
         f"{RESULTS}/tables/verdicts.parquet",
         f"{RESULTS}/tables/evidence.parquet",
         expand(
-            f"{RESULTS}/figures/fig{{number:02d}}.{{kind}}",
-            number=DRAWABLE,
+            f"{RESULTS}/figures/{{figure}}.{{kind}}",
+            figure=DRAWABLE,
             kind=["svg", "json"],
         ),
-        "report/index.html.j2",
-        "report/style.css",
+        TEMPLATES,
     output:
-        f"{RESULTS}/report/index.html",
+        report(
+            f"{RESULTS}/report/index.html",
+            caption="../report/page.rst",
+            category="The page",
+            labels={"what": "every claim and its verdict"},
+        ),
     log:
         f"{RESULTS}/logs/report.log",
     benchmark:
         f"{RESULTS}/benchmarks/report.tsv"
     params:
-        code=fingerprint("upswing.report"),
+        code=fingerprint("upswing.report.page"),
     shell:
         "upswing report {RESULTS:q} > {log:q} 2>&1"

@@ -1,40 +1,49 @@
-"""Figures 5–11 of the thesis, drawn from our runs: one file of code each."""
+"""Figures 5–11 of the thesis and those that sum them up, drawn from our runs: one file of code each."""
 
 import json
+from collections.abc import Iterable
 from importlib import import_module
 from pathlib import Path
 
 from upswing.figures.declaration import Declaration
-from upswing.problems import BadInput
+from upswing.problems import BadInput, near
 from upswing.store.files import written
 
-NUMBERS = range(5, 12)
+NAMES = (
+    "overview", "step-sizes", "learning-curves",
+    "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11",
+)  # fmt: skip
 
 
-def _module(number: int) -> str:
-    return f"upswing.figures.fig{number:02d}"
+def module_of(name: str) -> str:
+    """The module that draws a figure."""
+    return f"upswing.figures.{name.replace('-', '_')}"
 
 
-FIGURES: dict[int, Declaration] = {
-    number: import_module(_module(number)).FIGURE for number in NUMBERS
-}
-"""What each figure shows, by its number in the thesis."""
+FIGURES: dict[str, Declaration] = {name: import_module(module_of(name)).FIGURE for name in NAMES}
+"""What each figure shows, by its name; in the thesis ``fig05`` is figure 5."""
 
 
-def draw(number: int, results: Path) -> None:
-    """Draw a figure from ``results``: ``figures/figNN.svg``, ``.png`` and its words in ``.json``."""
-    if number not in FIGURES:
-        raise BadInput([f"figure: {number}: there are figures 5 to 11"])
+def drawable(cells: Iterable[str]) -> list[str]:
+    """The figures that can be drawn of a study with these cells."""
+    known = set(cells)
+    return [name for name, figure in FIGURES.items() if set(figure.cells) <= known]
+
+
+def draw(name: str, results: Path) -> None:
+    """Draw a figure from ``results``: ``figures/NAME.svg``, ``.png`` and its words in ``.json``."""
+    name = f"fig{int(name):02d}" if name.isdigit() else name
+    if name not in FIGURES:
+        raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
     from upswing.figures.style import save
     from upswing.runs import Results
 
-    drawing = import_module(_module(number)).draw(Results(results))
-    place = results / "figures" / f"fig{number:02d}"
+    declared = FIGURES[name]
+    drawing = import_module(module_of(name)).draw(Results(results))
+    place = results / "figures" / name
     save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:
-        declared = FIGURES[number]
         words = {
-            "number": number,
             "title": declared.title,
             "section": declared.section,
             "claims": declared.claims,

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 
 class Declaration(NamedTuple):
-    """A figure of the thesis."""
+    """A figure: one of the thesis, or one of ours that sums up its claims."""
 
     title: str
-    section: str  # where in the thesis
+    section: str  # where in the thesis; empty for ours
     claims: tuple[str, ...]  # ids of the claims it bears on
-    cells: tuple[str, ...]  # ids of the cells it is drawn from
+    cells: tuple[str, ...] = ()  # ids of the cells it is drawn from; none: whatever the study has
+    number: int | None = None  # in the thesis

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 CELLS = {
     f"balancing/table/alpha-{alpha}": f"α = {alpha}" for alpha in ("1", "0.75", "0.5", "0.001")
 }
-FIGURE = Declaration("The step size of a Q table, balancing", "§4.5.1", ("C3",), tuple(CELLS))
+FIGURE = Declaration(
+    "The step size of a Q table, balancing", "§4.5.1", ("C3",), tuple(CELLS), number=6
+)
 
 
 def draw(results: "Results") -> "Drawing":

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+from upswing.figures.words import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -15,7 +15,11 @@ CONTROLS = {
     "full-control/random/alpha-none": "random",
 }
 FIGURE = Declaration(
-    "A Q table at full control, α = 0.001", "§4.6.1", ("C7", "C8", "C9"), (CELL, *CONTROLS)
+    "A Q table at full control, α = 0.001",
+    "§4.6.1",
+    ("C7", "C8", "C9"),
+    (CELL, *CONTROLS),
+    number=8,
 )
 
 
@@ -25,8 +29,8 @@ def draw(results: "Results") -> "Drawing":
 
     figure, runs = panels.one_and_all(results, [(CELL, "table")], list(CONTROLS.items()))
     caption = (
-        "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: the angle. "
-        f"{MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
+        f"{WHEREABOUTS}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {CROWD}, dashed lines the medians of no control and of "
         "random actions."
     )

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -14,7 +14,7 @@ CELLS = {
     "full-control/networks-20-5/alpha-1": "160-20-5-1",
     "full-control/networks-5/alpha-1": "160-5-1",
 }
-FIGURE = Declaration("Networks at full control, α = 1", "§4.6.2", ("C10",), tuple(CELLS))
+FIGURE = Declaration("Networks at full control, α = 1", "§4.6.2", ("C10",), tuple(CELLS), number=9)
 
 
 def draw(results: "Results") -> "Drawing":
@@ -25,7 +25,7 @@ def draw(results: "Results") -> "Drawing":
     count = len(results.cell(next(iter(CELLS))))
     caption = (
         "Q-learning with three networks at full control, α = 1, in the three sizes of the thesis, "
-        f"which shows the first. Left: the angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright "
+        f"which shows the first. Left: {WHEREABOUTS}. {MEDIAN_BY_UPRIGHT}. Right: the share of upright "
         f"steps of all {count} runs; {CROWD}."
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+from upswing.figures.words import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 CELL = "full-control/modular-table/alpha-0.001"
 TABLE = "full-control/table/alpha-0.001"
 FIGURE = Declaration(
-    "Modular Q tables at full control, α = 0.001", "§4.6.3", ("C11",), (CELL, TABLE)
+    "Modular Q tables at full control, α = 0.001", "§4.6.3", ("C11",), (CELL, TABLE), number=10
 )
 
 
@@ -22,8 +22,8 @@ def draw(results: "Results") -> "Drawing":
 
     figure, runs = panels.one_and_all(results, [(CELL, "two tables")], [(TABLE, "one table")])
     caption = (
-        "Modular Q-learning with two tables of 4 × 20 tiles at full control, α = 0.001. Left: the "
-        f"angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        "Modular Q-learning with two tables of 4 × 20 tiles at full control, α = 0.001. Left: "
+        f"{WHEREABOUTS}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {CROWD}, the dashed line the median of one table "
         "(figure 8)."
     )

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT
+from upswing.figures.words import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -16,6 +16,7 @@ FIGURE = Declaration(
     "§4.6.3",
     ("C12", "C13", "C14", "C15"),
     (CELL, SINGLE),
+    number=11,
 )
 
 
@@ -26,7 +27,7 @@ def draw(results: "Results") -> "Drawing":
     figure, runs = panels.one_and_all(results, [(CELL, "modular")], [(SINGLE, "single")])
     caption = (
         "Modular Q-learning with two times three networks of 80-5-1 neurons at full control, "
-        f"α = 1. Left: the angle. {MEDIAN_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"α = 1. Left: {WHEREABOUTS}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {CROWD}, the dashed line the median of networks of the "
         "same size without modules (figure 9)."
     )

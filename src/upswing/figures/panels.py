@@ -5,16 +5,24 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from upswing.colours import colour
-from upswing.figures.style import grid_of_panels
+from upswing.figures.style import grid_of_panels, stack_and_panel
 from upswing.runs import Crowd, OneRun, Real, Results
-from upswing.store.trajectory import WHOLE_AT_START
+from upswing.store.trajectory import THINNED, WHOLE_AT_START
 
 POINTS = 200
 """A crowd's line has about so many points."""
+
+LINE = 0.14
+"""Height of a label [inch]."""
+
+ANGLES, TIMES = 37, 125
+"""The pendulum's whereabouts are counted in so many parts of a turn (0° in the middle of one) and
+of a run."""
 
 
 class Drawing(NamedTuple):
@@ -46,7 +54,33 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
     limit = 90 if run.kind == "balancing" else 180
     axes.set(ylim=(-1.08 * limit, 1.08 * limit), yticks=np.linspace(-limit, limit, 5))
     axes.set(xlim=(0, last), ylabel="angle φ [°]", title=f"Median run (seed {run.seed})")
-    _steps_axis(axes)
+    steps_axis(axes)
+
+
+def whereabouts(axes: Axes, run: OneRun, cell: str) -> None:
+    """Where the pendulum was, in time: the share of steps at each angle, darker for more.
+
+    A line would fill the panel. The steps are those kept evenly over the run; a column's darkest shade
+    is a half of its steps.
+    """
+    total = int(run.trajectory["step"].iloc[-1]) + 1
+    evenly = run.trajectory[run.trajectory["step"] % max(1, total // THINNED) == 0]
+    turns = np.degrees(evenly["angle"].to_numpy(float))
+    share, _, _ = np.histogram2d(
+        (turns + 180) % 360 - 180,
+        evenly["step"],
+        bins=(np.linspace(-180, 180, ANGLES + 1), np.linspace(0, total, TIMES + 1)),
+    )
+    share /= np.maximum(share.sum(axis=0), 1)
+    shades = LinearSegmentedColormap.from_list("shades", ["white", colour(cell), "black"])
+    axes.imshow(
+        share, cmap=shades, vmin=0, vmax=0.75, origin="lower", aspect="auto",
+        extent=(0, total, -180, 180), interpolation="nearest",
+    )  # fmt: skip
+    axes.grid(visible=False)
+    axes.set(ylim=(-180, 180), yticks=(-180, -90, 0, 90, 180), xlim=(0, total))
+    axes.set(ylabel="angle φ [°]", title=f"Seed {run.seed}")
+    steps_axis(axes)
 
 
 def falls(axes: Axes, crowds: Sequence[tuple[str, str, Crowd]], steps: int | None = None) -> None:
@@ -78,25 +112,49 @@ def upright(axes: Axes, crowds: Sequence[tuple[str, str, Crowd]]) -> None:
 def one_and_all(
     results: Results, cells: Sequence[tuple[str, str]], beside: Sequence[tuple[str, str]] = ()
 ) -> tuple[Figure, list[OneRun]]:
-    """A row for each of ``cells`` (id, label): its median run's angle, and all its runs.
+    """A row for each of ``cells`` (id, label): a single run's angle, and all its runs.
+
+    Balancing shows the median run as a line. Full control shows where the pendulum was: in the median
+    run, or in the worst, the median and the best where there is one cell only.
 
     Args:
         results: what is drawn.
         cells: ids and labels of the cells.
         beside: cells whose medians are drawn beside the crowds, for comparison.
     """
+    if len(cells) == 1 and results.kind(cells[0][0]) == "full-control":
+        return _three_and_all(results, cells[0], beside)
     figure, panels = grid_of_panels(len(cells))
     shown = []
     compared = [(cell, label, results.crowd(cell)) for cell, label in beside]
     for row, (cell, label) in enumerate(cells):
         left, right = panels[2 * row : 2 * row + 2]
         shown.append(results.median_run(cell))
-        angle(left, shown[-1], cell)
         crowd = results.crowd(cell)
+        one_run = angle if crowd.kind == "balancing" else whereabouts
+        one_run(left, shown[-1], cell)
+        left.set_title(f"Median run (seed {shown[-1].seed})")
         all_runs = falls if crowd.kind == "balancing" else upright
         all_runs(right, [(cell, label, crowd), *compared])
         if len(cells) > 1:
             left.set_title(f"{label}: {left.get_title(loc='left').lower()}", loc="left")
+    return figure, shown
+
+
+def _three_and_all(
+    results: Results, cell: tuple[str, str], beside: Sequence[tuple[str, str]]
+) -> tuple[Figure, list[OneRun]]:
+    """Where the worst, the median and the best run of a cell were, and the upright share of all."""
+    figure, (stack, right) = stack_and_panel(3)
+    shown = results.worst_median_best(cell[0])
+    for axes, rank, run in zip(stack, ("Worst", "Median", "Best"), shown, strict=True):
+        whereabouts(axes, run, cell[0])
+        axes.set_title(f"{rank} run (seed {run.seed})")
+        if axes is not stack[-1]:
+            axes.tick_params(labelbottom=False)
+            axes.set_xlabel("")
+    compared = [(name, label, results.crowd(name)) for name, label in beside]
+    upright(right, [(*cell, results.crowd(cell[0])), *compared])
     return figure, shown
 
 
@@ -116,24 +174,32 @@ def _crowd(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int 
         axes.plot(x, median, style, color=colour(cell), linewidth=1.8 if number == 0 else 1.2)
         ends.append((float(median[-1]), label, colour(cell)))
     axes.set_xlim(0, steps or float(lines[0][2][-1]))
-    _steps_axis(axes)
-    _label_ends(axes, ends)
+    steps_axis(axes)
+    label_ends(axes, ends)
 
 
-def _label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
+def label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
     """Name each median at its right end, moved apart where they would overlap."""
     low, high = axes.get_ylim()
-    gap = 0.12 * (high - low)
-    place = -np.inf
-    for value, label, shade in sorted(ends):
-        place = max(value, place + gap)
+    whole = axes.get_figure(root=True)
+    assert whole is not None  # noqa: S101
+    inches = whole.get_size_inches()[1] * axes.get_position().height
+    gap = LINE / inches * (high - low)
+    ordered = sorted(ends)
+    places: list[float] = []
+    for value, _, _ in ordered:
+        places.append(max(value, places[-1] + gap if places else value))
+    for number in reversed(range(len(places))):  # and none above the panel
+        places[number] = min(places[number], high - gap * (len(places) - 1 - number))
+    for place, (_, label, shade) in zip(places, ordered, strict=True):
         axes.annotate(
             label, (1.02, place), xycoords=("axes fraction", "data"), color=shade, va="center",
             annotation_clip=False,
         )  # fmt: skip
 
 
-def _steps_axis(axes: Axes) -> None:
+def steps_axis(axes: Axes) -> None:
+    """An axis of steps, written short."""
     axes.xaxis.set_major_formatter(FuncFormatter(_short))
     axes.xaxis.set_major_locator(MaxNLocator(4))
     axes.set_xlabel("step of 5 ms")

@@ -9,6 +9,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.pyplot import subplots as subplots
 
 from upswing.store.files import written
 
@@ -41,12 +42,22 @@ plt.rcParams.update(
 )
 
 
-def grid_of_panels(rows: int, widths: tuple[float, float] = (3, 2)) -> tuple[Figure, list[Axes]]:
-    """A figure of ``rows`` × 2 panels: one run on the left, the crowd on the right."""
+def grid_of_panels(
+    rows: int, widths: tuple[float, float] = (3, 2), height: float = ROW_HEIGHT
+) -> tuple[Figure, list[Axes]]:
+    """A figure of ``rows`` × 2 panels, each ``height`` high [inch]."""
     figure, axes = plt.subplots(
-        rows, 2, figsize=(WIDTH, ROW_HEIGHT * rows), width_ratios=widths, squeeze=False
+        rows, 2, figsize=(WIDTH, height * rows), width_ratios=widths, squeeze=False
     )
     return figure, [panel for row in axes for panel in row]
+
+
+def stack_and_panel(rows: int) -> tuple[Figure, tuple[list[Axes], Axes]]:
+    """A figure of a stack of ``rows`` low panels on the left and one panel on the right."""
+    figure = plt.figure(figsize=(WIDTH, 1.35 * rows))
+    grid = figure.add_gridspec(rows, 2, width_ratios=(3, 2))
+    stack = [figure.add_subplot(grid[row, 0]) for row in range(rows)]
+    return figure, (stack, figure.add_subplot(grid[:, 1]))
 
 
 def save(figure: Figure, place: Path) -> None:

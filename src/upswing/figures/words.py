@@ -8,3 +8,13 @@ MEDIAN_BY_UPRIGHT = (
     "(ties: mean reward, seed)"
 )
 CROWD = "thin lines are single runs, the thick line their median"
+WHEREABOUTS = (
+    "where the pendulum was: the darker, the more of its steps at that angle at that time; 0° is "
+    "upright, ±180° hanging"
+)
+ORDERED_BY_UPRIGHT = (
+    "runs are ordered by their share of upright steps, |φ| ≤ 20°, in the last fifth "
+    "(ties: mean reward, seed)"
+)
+SUCCESS = 0.9
+"""A run of full control succeeds if it is upright for this share of its last fifth."""

@@ -25,7 +25,7 @@ def chosen_runs(results: Results) -> list[str]:
     ]
     words = [
         json.loads(path.read_text("utf-8"))
-        for path in sorted((results.folder / "figures").glob("fig*.json"))
+        for path in sorted((results.folder / "figures").glob("*.json"))
     ]
     known = set(results.runs["run"])  # a figure may be left over from an earlier study
     shown = [run for figure in words for run in figure["runs"] if run in known]

@@ -1,0 +1,76 @@
+"""Learning curves: how often the pendulum falls, or is upright, as training goes on."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+
+if TYPE_CHECKING:
+    from upswing.figures.panels import Drawing
+    from upswing.runs import Results
+
+FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"))
+WINDOWS = 40
+"""A curve has so many points."""
+
+
+def draw(results: "Results") -> "Drawing":
+    """A panel for each kind of task: the median of every cell, with its quartiles for some."""
+    import numpy as np
+
+    from upswing.colours import colour
+    from upswing.figures import panels
+    from upswing.figures.cells import label, share
+    from upswing.figures.style import grid_of_panels
+
+    figure, axes = grid_of_panels(2, (3, 2), height=2.4)
+    for number, kind in enumerate(("balancing", "full-control")):
+        cells = [
+            cell for cell, spec in results.cells.items()
+            if spec.task.name == kind and spec.task.kind == kind
+        ]  # fmt: skip
+        # Of each architecture the step size with most successes, and with α = 1 if that is another.
+        chosen: dict[str, str] = {}
+        for cell in cells:
+            architecture = cell.split("/")[1]
+            best = chosen.get(architecture)
+            if best is None or share(results, cell).successes > share(results, best).successes:
+                chosen[architecture] = cell
+        groups = {
+            "best α": list(chosen.values()),
+            "α = 1": [cell for cell in cells if cell.endswith(("/alpha-1", "/alpha-none"))],
+        }
+        for (name, shown), panel in zip(groups.items(), axes[2 * number :], strict=False):
+            ends = []
+            for cell in shown:
+                crowd = results.crowd(cell)
+                group = max(1, len(crowd.last_step) // WINDOWS)
+                begins = np.arange(0, len(crowd.last_step), group)
+                if kind == "balancing":
+                    steps = np.diff(crowd.last_step, prepend=0)
+                    per = np.add.reduceat(steps, begins) / 1_000
+                    values = np.add.reduceat(crowd.falls, begins, axis=1) / per
+                else:
+                    sizes = np.diff(begins, append=len(crowd.last_step))
+                    values = 100 * np.add.reduceat(crowd.upright_share, begins, axis=1) / sizes
+                last = crowd.last_step[np.append(begins[1:], len(crowd.last_step)) - 1]
+                low, middle, high = np.quantile(values, (0.25, 0.5, 0.75), axis=0)
+                shade = colour(cell)
+                panel.plot(last, middle, color=shade, linewidth=1.4)
+                panel.fill_between(last, low, high, color=shade, alpha=0.12, linewidth=0)
+                words = label(cell) if name == "best α" else cell.split("/")[1]
+                ends.append((float(middle[-1]), words, shade))
+            panel.set_title(f"{kind}, {name}")
+            panel.set_ylabel("falls per 1,000 steps" if kind == "balancing" else "upright [%]")
+            if kind != "balancing":
+                panel.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
+            else:
+                panel.set_ylim(bottom=0)
+            if shown:
+                panel.set_xlim(0, float(last[-1]))
+            panels.steps_axis(panel)
+            panels.label_ends(panel, ends)
+    caption = (
+        "Medians over the runs, with the band between the quartiles. Left: each architecture with the "
+        "step size under which most of its runs succeed. Right: all of them with α = 1."
+    )
+    return panels.Drawing(figure, caption, [])

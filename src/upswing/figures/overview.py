@@ -1,0 +1,72 @@
+"""All cells at a glance: every run, and how many succeed."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import SUCCESS
+
+if TYPE_CHECKING:
+    from upswing.figures.panels import Drawing
+    from upswing.runs import Results
+
+FIGURE = Declaration("All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"))
+ROW = 0.19
+"""Height of a cell [inch]."""
+
+
+def draw(results: "Results") -> "Drawing":
+    """A row for each cell: a dot a run, and the share of runs that succeed with its interval."""
+    import numpy as np
+
+    from upswing.colours import colour
+    from upswing.figures import panels
+    from upswing.figures.cells import label, share
+    from upswing.figures.style import WIDTH, subplots
+
+    tasks: dict[str, list[str]] = {}
+    for cell in results.cells:
+        tasks.setdefault(cell.split("/")[0], []).append(cell)
+    heights = [len(cells) + 2.5 for cells in tasks.values()]
+    figure, grid = subplots(
+        len(tasks), 2, figsize=(WIDTH, ROW * sum(heights) + 0.4), height_ratios=heights,
+        width_ratios=(1, 1), sharey="row", squeeze=False,
+    )  # fmt: skip
+    for (task, cells), (left, right) in zip(tasks.items(), grid, strict=True):
+        balancing = results.kind(cells[0]) == "balancing"
+        for row, cell in enumerate(cells):
+            runs = results.cell(cell)
+            shade = colour(cell)
+            values = runs["falls_last_fifth"] if balancing else 100 * runs["upright_share"]
+            # Seeds lie a little apart, in their order.
+            apart = np.linspace(-0.28, 0.28, len(values))
+            left.scatter(values, row + apart, s=4, color=shade, alpha=0.6, linewidths=0)
+            found = share(results, cell)
+            right.hlines(row, found.low, found.high, color=shade, linewidth=2.5, alpha=0.45)
+            right.plot(found.value, row, "o", color=shade, markersize=4)
+            right.annotate(
+                f"{found.successes} of {found.of}", (1.02, row), xycoords=("axes fraction", "data"),
+                va="center", color=shade,
+            )  # fmt: skip
+        left.set_yticks(range(len(cells)), [label(cell) for cell in cells])
+        left.set_ylim(len(cells) - 0.4, -0.6)
+        left.set_title(f"{task}: every run")
+        right.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
+        if balancing:
+            left.set_xscale("symlog", linthresh=1)
+            left.set_xlim(-0.15, None)
+            left.set_xticks((0, 1, 10, 100), ("0", "1", "10", "100"))
+            left.set_xlabel("falls in the last fifth")
+            right.set_title("Runs without a fall in the last fifth [%]")
+        else:
+            left.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
+            left.set_xlabel("upright in the last fifth [% of steps]")
+            right.set_title(f"Runs upright for {SUCCESS:.0%} of it [%]")
+        for axes in (left, right):
+            axes.grid(visible=False, axis="y")
+    runs_of_a_cell = len(results.cell(next(iter(results.cells))))
+    caption = (
+        f"Each row is a cell with {runs_of_a_cell} runs. Left: every run as a dot, its seeds from top "
+        "to bottom. Right: the share of runs that balance without a fall in their last fifth, or are "
+        f"upright for {SUCCESS:.0%} of it; the bar is its 95 % interval (Wilson)."
+    )
+    return panels.Drawing(figure, caption, [])

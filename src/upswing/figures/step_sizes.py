@@ -1,0 +1,65 @@
+"""How many runs succeed with each step size: claims C3, C6 and C8 in one picture."""
+
+from typing import TYPE_CHECKING
+
+from upswing.figures.declaration import Declaration
+from upswing.figures.words import SUCCESS
+
+if TYPE_CHECKING:
+    from upswing.figures.panels import Drawing
+    from upswing.runs import Results
+
+FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"))
+
+
+def draw(results: "Results") -> "Drawing":
+    """A panel for each task: the share of runs that succeed over α, a line for each architecture."""
+    from upswing.colours import colour
+    from upswing.figures import panels
+    from upswing.figures.cells import share
+    from upswing.figures.style import grid_of_panels
+
+    curves: dict[tuple[str, str], dict[float, str]] = {}
+    for cell, spec in results.cells.items():
+        if spec.alpha is not None:
+            key = (spec.task.name, spec.architecture.name)
+            curves.setdefault(key, {})[float(spec.alpha)] = cell
+    tasks = list(dict.fromkeys(task for task, _ in curves))
+    shown = [task for task in tasks if any(len(c) > 1 for (t, _), c in curves.items() if t == task)]
+    shown = (shown or tasks)[:2]
+    figure, axes = grid_of_panels(1, (1, 1), height=2.6)
+    for panel, task in zip(axes, shown, strict=False):
+        ends: list[tuple[float, str, str]] = []
+        for (of, architecture), cells in curves.items():
+            if of != task:
+                continue
+            alphas = sorted(cells)
+            # Architectures stand a little apart, so that equal ones are both seen.
+            beside = [alpha * 1.04 ** len(ends) for alpha in alphas]
+            found = [share(results, cells[alpha]) for alpha in alphas]
+            shade = colour(cells[alphas[0]])
+            low, high = ([getattr(s, end) - s.value for s in found] for end in ("low", "high"))
+            panel.errorbar(
+                beside, [s.value for s in found], yerr=[[-x for x in low], high], color=shade,
+                fmt="o-", markersize=3.5, linewidth=1.4, elinewidth=1, capsize=2,
+            )  # fmt: skip
+            ends.append((found[-1].value, architecture, shade))
+        panel.set_xscale("log")
+        panel.xaxis.set_major_formatter("{x:g}")
+        panel.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100), xlabel="step size α")
+        criterion = (
+            "without a fall in the last fifth"
+            if results.kind(next(c for c in results.cells if c.startswith(f"{task}/")))
+            == "balancing"
+            else f"upright for {SUCCESS:.0%} of the last fifth"
+        )
+        panel.set_title(f"{task}: runs {criterion} [%]")
+        panels.label_ends(panel, ends)
+    for panel in axes[len(shown) :]:
+        panel.set_visible(False)
+    caption = (
+        "The share of runs that succeed, with its 95 % interval (Wilson), over the step size α: "
+        "balancing without a fall in the last fifth, or full control upright for "
+        f"{SUCCESS:.0%} of it. Architectures stand a little apart."
+    )
+    return panels.Drawing(figure, caption, [])

@@ -1,0 +1,36 @@
+"""What each rule of the workflow took, from its benchmark files."""
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+
+def costs(results: Path) -> list[dict[str, Any]]:
+    """One row for each kind of job: how many, their time, processor time and memory.
+
+    Keys: ``rule``, ``jobs``, ``seconds`` (of all jobs, one after the other), ``cpu_seconds``,
+    ``memory`` [MB] (of the largest job).
+    """
+    folder = results / "benchmarks"
+    rows = []
+    for path in sorted(folder.rglob("*.tsv")):
+        relative = path.relative_to(folder)
+        rule = relative.parts[0].removesuffix(".tsv")
+        try:
+            measured = pd.read_csv(path, sep="\t", na_values="-")
+        except (OSError, ValueError):
+            continue  # a job that is being run has an empty one
+        for _, row in measured.iterrows():
+            rows.append((rule, row["s"], row.get("cpu_time"), row.get("max_rss")))
+    if not rows:
+        return []
+    frame = pd.DataFrame(rows, columns=["rule", "seconds", "cpu_seconds", "memory"])
+    grouped = frame.groupby("rule", sort=False).agg(
+        jobs=("seconds", "size"),
+        seconds=("seconds", "sum"),
+        cpu_seconds=("cpu_seconds", "sum"),
+        memory=("memory", "max"),
+    )
+    ordered = grouped.sort_values("seconds", ascending=False).reset_index()
+    return [{str(k): v for k, v in row.items()} for row in ordered.to_dict("records")]

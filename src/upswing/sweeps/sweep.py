@@ -1,0 +1,72 @@
+"""A group of readings → one row a run: its measures, and nothing else of it."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing.catching import highest_stoppable_speed
+from upswing.config import Study
+from upswing.evaluation import evaluate
+from upswing.loop import Trajectory, empty_trajectory
+from upswing.measures import in_windows, measure
+from upswing.problems import BadInput, near
+from upswing.setting import prepare
+from upswing.spec import Spec
+from upswing.store.trajectory import digest, kept_steps
+from upswing.sweeps.plan import Sweep, canonical_of, groups, label, specs
+from upswing.tables import NULLABLE, write_table
+
+
+def path_of(results: Path, sweep: str, group: str) -> Path:
+    """Where the rows of a group stand."""
+    return results / "readings" / sweep / f"{group}.parquet"
+
+
+def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str) -> Path:
+    """Run a group of a sweep and write its table; returns the table's path."""
+    known = {one.name: one for one in groups(sweep, study)}
+    if group not in known:
+        raise BadInput([f"sweep {name}: {group}: no such group; {near(group, known)}"])
+    rows: list[dict[str, Any]] = []
+    for overrides in known[group].members:
+        begin = time.perf_counter()
+        before = len(rows)
+        for spec in specs(sweep, study, overrides):
+            trajectory = empty_trajectory(spec.task.steps)
+            rows += [
+                {
+                    "sweep": name,
+                    "readings": canonical_of(overrides),
+                    **outcome(spec, seed, trajectory),
+                }
+                for seed in spec.seeds
+            ]
+        took = time.perf_counter() - begin
+        print(f"{label(overrides)}: {len(rows) - before} runs in {took:.1f} s", flush=True)
+    path = path_of(results, name, group)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_table(path, pd.DataFrame(rows).astype(NULLABLE))
+    return path
+
+
+def outcome(spec: Spec, seed: int, trajectory: Trajectory) -> dict[str, Any]:
+    """One row: what a run came to; ``trajectory`` has room for its steps and is written over."""
+    setting = prepare(spec, seed)
+    setting.advance(trajectory, 0, spec.task.steps)
+    measures = measure(trajectory, spec.task.kind, highest_stoppable_speed(setting.body))
+    windows = in_windows(trajectory)
+    kept = kept_steps(trajectory, measures.first_stable_step)
+    return {
+        "run": spec.run(seed),
+        "cell": spec.cell,
+        "task": spec.task.name,
+        "architecture": spec.architecture.name,
+        "alpha": spec.alpha,
+        "seed": seed,
+        **measures._asdict(),
+        **evaluate(setting, spec.task.kind, seed)._asdict(),
+        "digest": digest(trajectory, kept, windows),
+        "recording": "",
+    }

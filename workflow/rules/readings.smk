@@ -1,0 +1,28 @@
+# Sweeps over readings: one job for a group of them.
+
+SWEPT = {
+    f"{name}/{group.name}": (sweep, group)
+    for name, sweep in SWEEPS.items()
+    for group in groups(sweep, STUDY)
+}
+
+
+rule sweep:
+    input:
+        # Its content counts, in the params; a new seed of the study changes no sweep.
+        ancient(f"{RESULTS}/study.json"),
+    output:
+        f"{RESULTS}/readings/{{sweep}}/{{group}}.parquet",
+    log:
+        f"{RESULTS}/logs/sweep/{{sweep}}/{{group}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/sweep/{{sweep}}/{{group}}.tsv"
+    params:
+        content=lambda wildcards: content_of(
+            *SWEPT[f"{wildcards.sweep}/{wildcards.group}"][:1],
+            STUDY,
+            SWEPT[f"{wildcards.sweep}/{wildcards.group}"][1],
+        ),
+        code=fingerprint("upswing.sweeps.sweep", packages=COMPUTING_PACKAGES),
+    shell:
+        "upswing sweep {wildcards.sweep} {wildcards.group} {RESULTS:q} > {log:q} 2>&1"
