@@ -7,12 +7,12 @@ from snakemake.exceptions import WorkflowError
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES, drawable, module_of
-from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
+from upswing.fingerprint import fingerprint
 from upswing.matrix import RUN_FILES, Matrix, training_code
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.study import canonical
-from upswing.sweeps.plan import content_of, groups, load_sweeps
+from upswing.sweeps.plan import content_of, groups, load_sweeps, sweep_code
 
 if not workflow.configfiles:
 

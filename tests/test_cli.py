@@ -18,7 +18,7 @@ GOOD = make_spec(steps=100).canonical()
         (["train", json.dumps({**json.loads(GOOD), "seeds": [-1]}), "--results", "R"], "spec: seeds[0]: -1"),
         (["study", "{}", "--results", "R"], "study: tasks: missing"),
         (["tables", "R"], "study.json: missing"),
-        (["figure", "4", "R"], "figure: fig04: no such figure; did you mean 'fig0"),
+        (["figure", "4", "R"], "figure: fig04: no such figure; did you mean 'fig"),
         (["figure", "5", "R"], "study.json: missing"),
         (["report", "R"], "study.json: missing"),
         (["check", "none.yaml"], "none.yaml: cannot be read"),

@@ -21,10 +21,14 @@ R = TypeVar("R")
 
 config: Any = numba.config  # numba makes its settings when it is imported
 
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
+OPTIONS: Any = {"error_model": "numpy", "_nrt": False}
 """Numpy's rules for division by zero; and no counting of references to arrays, which took most of a
 step (an atomic operation for every array of a learner at every call). So compiled code makes no
 arrays: it changes those it is given, which its Python caller holds."""
+
+
+INLINED: Any = {**OPTIONS, "forceinline": True}
+"""Calls cost most of a step otherwise: a learner is a hundred words, handed over by copying."""
 
 
 def compiled_modules() -> list[str]:
@@ -62,6 +66,11 @@ def _writable(directory: Path) -> bool:
 _choose_cache_directory()
 
 
+def inlined(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile ``function`` into each place that calls it."""
+    return numba.njit(cache=True, **INLINED)(function)  # type: ignore[no-any-return]
+
+
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """Compile ``function`` to machine code, kept on disk between processes.
 
@@ -87,7 +96,7 @@ class ByType(Generic[P, R]):
         def choose(*types: Any) -> Callable[..., R] | None:
             return bodies.get(getattr(types[0], "instance_class", type(None)))
 
-        overload(call, strict=False, jit_options=OPTIONS)(choose)  # type: ignore[arg-type]
+        overload(call, strict=False, jit_options=INLINED)(choose)
         self.call = call
 
     def register(self, kind: type) -> Callable[[Callable[..., R]], Callable[..., R]]:

@@ -5,10 +5,10 @@ position, while reward, start and reset of §4.4–4.5 have it zero upright (rea
 gravity and the cart's torque change sign. Velocities are printed in m/s where they are rad/s.
 """
 
-from math import cos, sin
 from typing import NamedTuple
 
 from upswing.compiled import compiled
+from upswing.elementary import sine_and_cosine
 
 FROM_UPRIGHT = 1.0
 FROM_HANGING = -1.0
@@ -31,8 +31,9 @@ def angular_acceleration(
 ) -> float:
     """φ̈ [rad/s²] at φ [rad], φ̇ [rad/s] and ẍ [m/s²] (eq. 21)."""
     m, l, g, f_c, _, up = pendulum  # noqa: E741  the symbols of §4.2
-    gravity_torque = up * (m * g * l / 2) * sin(angle)  # M_P, eq. 14
-    cart_torque = up * (m * l / 2) * cart_acceleration * cos(angle)  # M_C, eq. 16
+    sin_angle, cos_angle = sine_and_cosine(angle)
+    gravity_torque = up * (m * g * l / 2) * sin_angle  # M_P, eq. 14
+    cart_torque = up * (m * l / 2) * cart_acceleration * cos_angle  # M_C, eq. 16
     friction_torque = -f_c * angular_velocity  # M_Fr, eq. 17
     moment_of_inertia = m * l * l / 3  # J, eq. 19
     return (gravity_torque + cart_torque + friction_torque) / moment_of_inertia  # eq. 18, 20

@@ -19,10 +19,10 @@ rule sweep:
         f"{RESULTS}/benchmarks/sweep/{{sweep}}/{{group}}.tsv"
     params:
         content=lambda wildcards: content_of(
-            *SWEPT[f"{wildcards.sweep}/{wildcards.group}"][:1],
+            SWEEPS[wildcards.sweep],
             STUDY,
             SWEPT[f"{wildcards.sweep}/{wildcards.group}"][1],
         ),
-        code=fingerprint("upswing.sweeps.sweep", packages=COMPUTING_PACKAGES),
+        code=lambda wildcards: sweep_code(SWEEPS[wildcards.sweep], STUDY),
     shell:
         "upswing sweep {wildcards.sweep} {wildcards.group} {RESULTS:q} > {log:q} 2>&1"

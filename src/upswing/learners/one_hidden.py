@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.compiled import compiled
+from upswing.compiled import inlined
 from upswing.learners import Array, Q, update_of, values_of
 from upswing.learners.logistic import logistic
+from upswing.learners.product import product
 from upswing.tasks import ACTIONS
 
 Counter = NDArray[np.int64]
@@ -77,7 +78,7 @@ def nothing_kept(shape: tuple[int, ...]) -> Kept:
     )
 
 
-@compiled
+@inlined
 def activate(
     kept: Kept, input_weights: Array, hidden_bias: Array, module: int, action: int, tile: int
 ) -> None:
@@ -91,7 +92,7 @@ def activate(
     kept.hidden_at[module, action, tile] = kept.hidden_updates[module, action]
 
 
-@compiled
+@inlined
 def forget(kept: Kept, learns_hidden_bias: bool, module: int, action: int, tile: int) -> None:
     """Note what an update of a network at a tile has made stale."""
     kept.updates[module, action] += 1
@@ -108,10 +109,7 @@ def _values(net: OneHidden, module: int, tile: int) -> Q:
         if kept.q_at[module, action, tile] != kept.updates[module, action]:
             activate(kept, net.input_weights, net.hidden_bias, module, action, tile)
             v, h = net.output_weights[module, action], kept.hidden[module, action, tile]
-            total = net.output_bias[module, action]
-            for j in range(h.shape[0]):
-                total += v[j] * h[j]
-            kept.q[module, action, tile] = total
+            kept.q[module, action, tile] = net.output_bias[module, action] + product(v, h)
             kept.q_at[module, action, tile] = kept.updates[module, action]
     return kept.q[module, 0, tile], kept.q[module, 1, tile], kept.q[module, 2, tile]
 

@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.compiled import compiled
+from upswing.compiled import inlined
 from upswing.learners import Array, Q, update_of, values_of
 from upswing.learners.logistic import logistic
 from upswing.learners.one_hidden import Kept, activate, forget, nothing_kept
+from upswing.learners.product import product
 from upswing.tasks import ACTIONS
 
 
@@ -56,7 +57,7 @@ def two_hidden(
     )
 
 
-@compiled
+@inlined
 def evaluate(net: TwoHidden, module: int, action: int, tile: int) -> None:
     """Make what is kept of a tile that of today's weights."""
     kept = net.kept
@@ -66,14 +67,11 @@ def evaluate(net: TwoHidden, module: int, action: int, tile: int) -> None:
     h, g = kept.hidden[module, action, tile], net.second[module, action, tile]
     u, b = net.middle_weights[module, action], net.second_bias[module, action]
     v = net.output_weights[module, action]
-    total = net.output_bias[module, action]
     for k in range(g.shape[0]):
-        potential = b[k]
-        for j in range(h.shape[0]):
-            potential += u[k, j] * h[j]
-        g[k] = logistic(potential)
-        total += v[k] * g[k]
-    kept.q[module, action, tile] = total
+        g[k] = b[k] + product(u[k], h)
+    for k in range(g.shape[0]):
+        g[k] = logistic(g[k])
+    kept.q[module, action, tile] = net.output_bias[module, action] + product(v, g)
     kept.q_at[module, action, tile] = kept.updates[module, action]
 
 
