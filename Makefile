@@ -43,6 +43,20 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 	@$(SNAKEMAKE) --configfile config/smoke.yaml
 	@echo "The report is at results/smoke/report/index.html"
 
+.PHONY: readings
+readings: install ## Judge every claim under other readings too (some 25 minutes on 2 cores; goes on where it stopped)
+	@$(SNAKEMAKE) --configfile config/config.yaml -- readings
+	@$(SNAKEMAKE) --configfile config/config.yaml
+	@echo "The report is at results/report/index.html#robust"
+
+.PHONY: bench
+bench: install ## Measure a step against C, numpy and torch, and what the whole study took
+	@$(BIN)/python -m tests.benchmarks.run results
+
+.PHONY: bench-growth
+bench-growth: install ## Measure how time and size grow with seeds and steps (a quarter of an hour)
+	@$(BIN)/python -m tests.benchmarks.growth results
+
 .PHONY: browse
 browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"
 	@$(BIN)/upswing browse $(FILTER)

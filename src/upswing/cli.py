@@ -128,6 +128,14 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
     added.set_defaults(verb=_sweep, repeatable=True)
 
+    summary = (
+        "Judge every claim under every reading of the sweeps, and choose the networks' default."
+    )
+    added = verbs.add_parser("readings", help=summary, description=summary, parents=[results])
+    added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
+    added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
+    added.set_defaults(verb=_readings, repeatable=True)
+
     added = verb("study", _study, "Keep a study's configuration beside its results.")
     added.set_defaults(repeatable=True)
     added.add_argument("study", help="the study in JSON")
@@ -248,6 +256,18 @@ def _sweep(options: argparse.Namespace) -> None:
         )
     sweep = sweeps[options.sweep]
     print(write_group(options.results, study, options.sweep, sweep, options.group))
+
+
+def _readings(options: argparse.Namespace) -> None:
+    from upswing.claims import load_claims
+    from upswing.figures.readings import draw_readings
+    from upswing.study import read_study
+    from upswing.sweeps.plan import load_sweeps
+    from upswing.sweeps.results import write_readings
+
+    sweeps = load_sweeps(options.sweeps, read_study(options.results))
+    print(write_readings(options.results, sweeps, load_claims(options.claims)).to_string())
+    draw_readings(options.results, sweeps)
 
 
 def _study(options: argparse.Namespace) -> None:

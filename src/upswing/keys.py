@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from upswing.config import schema
+from upswing.sweeps.plan import Sweep
 
 HEAD = """\
 # Configuration
@@ -23,6 +24,15 @@ message.
 """
 
 
+SWEEPS_HEAD = """\
+`claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
+
+`readings.yaml` says what `make readings` runs under other readings. The sweep named `selection` chooses the
+networks' default; every other one judges the claims whose cells it has.
+
+"""
+
+
 def reference() -> str:
     """The page."""
     described = schema()
@@ -35,6 +45,8 @@ def reference() -> str:
         "Readings": "Readings, below `readings`",
     }
     sections += [_section(title, definitions[name]) for name, title in titles.items()]
+    sweep = Sweep.model_json_schema()
+    sections.append(SWEEPS_HEAD + _section("A sweep, below `<name>` in `readings.yaml`", sweep))
     return "\n".join(sections)
 
 

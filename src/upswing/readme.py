@@ -9,6 +9,7 @@ from upswing.config import read_yaml
 from upswing.problems import BadInput
 from upswing.report import words
 from upswing.store.files import written
+from upswing.sweeps.results import SELECTION
 from upswing.tables import VERDICTS
 
 FIGURES = ("overview", "step-sizes")
@@ -28,6 +29,9 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
         raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
     with written(templates / TABLE) as beside:
         verdicts_of(pd.read_parquet(results / VERDICTS)).to_csv(beside, index=False)
+    if (results / SELECTION).exists():
+        with written(templates / "selection.csv") as beside:
+            pd.read_parquet(results / SELECTION).to_csv(beside, index=False, float_format="%.6g")
     for name in FIGURES:
         source = results / "figures" / f"{name}.png"
         if not source.exists():

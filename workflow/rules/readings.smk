@@ -26,3 +26,32 @@ rule sweep:
         code=lambda wildcards: sweep_code(SWEEPS[wildcards.sweep], STUDY),
     shell:
         "upswing sweep {wildcards.sweep} {wildcards.group} {RESULTS:q} > {log:q} 2>&1"
+
+
+rule readings:
+    input:
+        f"{RESULTS}/study.json",
+        expand(f"{RESULTS}/readings/{{swept}}.parquet", swept=SWEPT),
+    output:
+        f"{RESULTS}/tables/selection.parquet",
+        f"{RESULTS}/tables/readings.parquet",
+        f"{RESULTS}/tables/decisive.parquet",
+        f"{RESULTS}/tables/robust.parquet",
+        expand(
+            f"{RESULTS}/figures/readings-{{sweep}}.{{kind}}",
+            sweep=[name for name in SWEEPS if name != "selection"],
+            kind=["svg", "png"],
+        ),
+    log:
+        f"{RESULTS}/logs/readings.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/readings.tsv"
+    params:
+        claims=canonical_claims(CLAIMS),
+        code=fingerprint(
+            "upswing.sweeps.results",
+            "upswing.figures.readings",
+            packages=["scipy", "matplotlib"],
+        ),
+    shell:
+        "upswing readings {RESULTS:q} > {log:q} 2>&1"

@@ -5,6 +5,10 @@ TEMPLATES = sorted(
     for pattern in ("*.j2", "*.css", "*.js", "*.yaml", "parts/*", "drawings/*")
     for path in Path("report").glob(pattern)
 )
+SWEPT_TABLES = [
+    f"{RESULTS}/tables/{name}.parquet"
+    for name in ("selection", "readings", "decisive", "robust")
+]
 
 
 rule report:
@@ -20,6 +24,8 @@ rule report:
             kind=["svg", "json"],
         ),
         TEMPLATES,
+        # Where the sweeps over readings have been run, the page shows them.
+        [path for path in SWEPT_TABLES if Path(path).exists()],
     output:
         report(
             f"{RESULTS}/report/index.html",

@@ -5,6 +5,12 @@ from typing import Any
 
 import pandas as pd
 
+BENCHMARK = "tables/benchmark.parquet"
+"""Where `make bench` leaves what it measured."""
+
+NOT_STUDY = ("sweep", "readings")
+"""Rules of ``make readings``, which is not the study itself."""
+
 
 def costs(results: Path) -> list[dict[str, Any]]:
     """One row for each kind of job: how many, their time, processor time and memory.
@@ -34,3 +40,23 @@ def costs(results: Path) -> list[dict[str, Any]]:
     )
     ordered = grouped.sort_values("seconds", ascending=False).reset_index()
     return [{str(k): v for k, v in row.items()} for row in ordered.to_dict("records")]
+
+
+def totals(results: Path, learning: float) -> dict[str, float]:
+    """Of all jobs: ``cpu_seconds``, the share ``learning`` of them, and ``megabytes`` on disk by folder.
+
+    Args:
+        results: a folder of results.
+        learning: seconds that its runs spent learning, by their own account.
+    """
+    cpu = sum(float(row["cpu_seconds"]) for row in costs(results) if row["rule"] not in NOT_STUDY)
+    size: dict[str, float] = {}
+    for path in results.rglob("*"):
+        folder = path.relative_to(results).parts[0]
+        if path.is_file() and folder not in ("smoke", "readings"):
+            size[folder] = size.get(folder, 0.0) + path.stat().st_size / 1e6
+    return {
+        "cpu_seconds": cpu,
+        "learning": learning / cpu if cpu else 0.0,
+        "megabytes": sum(size.values()),
+    }

@@ -17,14 +17,18 @@ from upswing.pendulum import Pendulum
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.report import words
-from upswing.report.cost import costs
+from upswing.report.cost import BENCHMARK, costs, totals
 from upswing.report.scale import strip
 from upswing.store.files import written
 from upswing.store.provenance import provenance
 from upswing.study import read_study
+from upswing.sweeps.results import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.tables import CELLS, EVIDENCE, RUNS, VERDICTS
 
 PAGE = "report/index.html"
+CAUSES, LIKELIEST = 3, 8
+"""So many readings that decide a claim, and so many of the most likely ones, are shown."""
+
 Row = dict[str, Any]
 
 
@@ -43,18 +47,22 @@ def write_report(results: Path, templates: Path) -> None:
     environment.filters.update(words.FILTERS)
     verdicts = _verdicts(results)
     cells = _rows(results / CELLS)
+    runs = _rows(results / RUNS)
     page = environment.get_template("index.html.j2").render(
         study=study,
         body=Pendulum(),
         cells=cells,
         cell={row["cell"]: row for row in cells},
-        runs=_rows(results / RUNS),
+        runs=runs,
         verdicts=verdicts,
         counts=_counts(verdicts),
         figures={figure["name"]: figure for figure in _figures(results)},
         readings=_readings(study.readings),
+        swept=_swept(results),
         deviations=read_yaml(templates / "deviations.yaml")["deviations"],
         costs=costs(results),
+        totals=totals(results, sum(row["seconds"] for row in runs)),
+        benchmark=_rows(results / BENCHMARK) if (results / BENCHMARK).exists() else [],
         provenance=provenance(),
         style=_own(templates / "style.css"),
         script=_own(templates / "page.js"),
@@ -115,11 +123,39 @@ def _figures(results: Path) -> list[Row]:
         place = results / "figures" / name
         page: Row = {"name": name, **declared._asdict(), "missing": True}
         if place.with_suffix(".json").exists():
-            picture = base64.b64encode(place.with_suffix(".svg").read_bytes()).decode()
             said = json.loads(place.with_suffix(".json").read_text("utf-8"))
-            page |= {**said, "picture": f"data:image/svg+xml;base64,{picture}", "missing": False}
+            page |= {**said, "picture": _picture(place.with_suffix(".svg")), "missing": False}
         pages.append(page)
     return pages
+
+
+def _swept(results: Path) -> Row:
+    """What the sweeps over readings came to; empty if they were not run."""
+    if not (results / ROBUST).exists():
+        return {"robust": []}
+    decisive = _rows(results / DECISIVE)
+    robust = _rows(results / ROBUST)
+    selection = _rows(results / SELECTION) if (results / SELECTION).exists() else []
+    judged = pd.read_parquet(results / READINGS, columns=["sweep", "n"])
+    return {
+        "robust": robust,
+        "seeds": int(judged["n"].max()),
+        "decisive": {
+            row["claim"]: [cause for cause in decisive if cause["claim"] == row["claim"]][:CAUSES]
+            for row in robust
+        },
+        "pictures": [
+            {"name": name, "data": _picture(results / "figures" / f"readings-{name}.svg")}
+            for name in judged["sweep"].unique()
+        ],
+        "selection": selection[:LIKELIEST],
+        "selected_of": len(selection),
+    }
+
+
+def _picture(path: Path) -> str:
+    """A picture as an address that holds all of it."""
+    return f"data:image/svg+xml;base64,{base64.b64encode(path.read_bytes()).decode()}"
 
 
 def _readings(readings: Readings) -> list[Row]:
