@@ -61,6 +61,14 @@ bench-growth: install ## Measure how time and size grow with seeds and steps (a 
 browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"
 	@$(BIN)/upswing browse $(FILTER)
 
+.PHONY: doctor
+doctor: install ## Check that results are whole; says what to delete where they are not
+	@$(BIN)/upswing doctor results
+
+.PHONY: clean-orphans
+clean-orphans: install ## Delete runs that are no longer in the configuration
+	@$(BIN)/upswing clean-orphans results
+
 .PHONY: test
 test: install ## Run all tests
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup

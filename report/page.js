@@ -1,4 +1,12 @@
 "use strict";
+// A link to a claim opens it.
+function openLinked() {
+  const linked = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (linked instanceof HTMLDetailsElement) linked.open = true;
+}
+addEventListener("hashchange", openLinked);
+openLinked();
+
 // Sorting and filtering of the table of runs. Without this script the table is whole, in its own order.
 const table = document.getElementById("runs-table");
 const body = table.tBodies[0];

@@ -26,6 +26,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BadInput as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 2
+    except MemoryError as error:
+        print(f"upswing: not enough memory: {error}", file=sys.stderr)
+        return 1
     except (OSError, RuntimeError) as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 1
@@ -89,6 +92,14 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--run", default="full-control/modular-networks-5/alpha-1/seed-4")
     added.add_argument("--task", default="full-control")
     added.set_defaults(verb=_screenshots)
+
+    summary = "Check that a folder of results is whole; says what to delete where it is not."
+    added = verbs.add_parser("doctor", help=summary, description=summary, parents=[results])
+    added.set_defaults(verb=_doctor)
+
+    summary = "Delete the files of runs that are not, or no longer, in the study."
+    added = verbs.add_parser("clean-orphans", help=summary, description=summary, parents=[results])
+    added.set_defaults(verb=_clean_orphans)
 
     summary = "Renew what the README shows of the results."
     added = verbs.add_parser("readme", help=summary, description=summary, parents=[results])
@@ -228,6 +239,22 @@ def _viewer(options: argparse.Namespace) -> None:
 
     for name in write_viewer(Results(options.results), options.templates):
         print(name)
+
+
+def _doctor(options: argparse.Namespace) -> int:
+    from upswing.doctor import examine
+    from upswing.terminal import print_diagnosis
+
+    diagnosis = examine(options.results)
+    print_diagnosis(diagnosis)
+    return 1 if diagnosis.findings else 0
+
+
+def _clean_orphans(options: argparse.Namespace) -> None:
+    from upswing.doctor import delete_orphans
+
+    for path in delete_orphans(options.results):
+        print(f"deleted {path}")
 
 
 def _readme(options: argparse.Namespace) -> None:

@@ -27,8 +27,8 @@ message.
 SWEEPS_HEAD = """\
 `claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
 
-`readings.yaml` says what `make readings` runs under other readings. The sweep named `selection` chooses the
-networks' default; every other one judges the claims whose cells it has.
+`readings.yaml` says what `make readings` runs under other readings. The sweep named `selection` chooses
+the networks' default; every other one judges the claims whose cells it has.
 
 """
 

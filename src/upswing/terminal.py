@@ -8,6 +8,7 @@ from rich.table import Table
 
 from upswing.claims import words_of
 from upswing.compare import Comparison
+from upswing.doctor import Diagnosis
 
 STYLES = {
     "reproduced": "green",
@@ -62,3 +63,18 @@ def _name(console: Console, runs: Sequence[str]) -> None:
         console.print(f"  {run}")
     if len(runs) > SHOWN:
         console.print(f"  … and {len(runs) - SHOWN} more")
+
+
+def print_diagnosis(diagnosis: Diagnosis) -> None:
+    """What is wrong with a folder of results and what to do, or that nothing is."""
+    for finding in diagnosis.findings:
+        print(f"{finding.path}: {finding.what}\n    {finding.remedy}")
+    if diagnosis.orphans:
+        print(
+            f"{len(diagnosis.orphans)} files are of no run of the study, {diagnosis.orphans[0]} first;"
+        )
+        print("    `make clean-orphans` deletes them")
+    for note in diagnosis.notes:
+        print(note)
+    state = f"{len(diagnosis.findings)} findings" if diagnosis.findings else "all whole"
+    print(f"{diagnosis.runs} runs, {diagnosis.files} files: {state}")

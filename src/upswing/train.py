@@ -13,12 +13,15 @@ from safetensors.numpy import save
 from upswing.catching import highest_stoppable_speed
 from upswing.evaluation import evaluate
 from upswing.loop import Trajectory, empty_trajectory
+from upswing.matrix import training_code
 from upswing.measures import Measures, in_windows, measure
 from upswing.recordings.run import write_recording
 from upswing.setting import Setting, prepare
 from upswing.snapshots import Snapshots, look, moments, snapshots
 from upswing.spec import Spec
+from upswing.store.checksums import checksum
 from upswing.store.files import written
+from upswing.store.kept import keep, take_back
 from upswing.store.provenance import metadata, provenance
 from upswing.store.trajectory import digest, kept_steps, write_trajectory, write_windows
 
@@ -42,11 +45,16 @@ def train(spec: Spec, results: Path) -> None:
 
     A run that fails does not stop the others; ``RunsFailed`` then names it at the end.
     """
-    failed = []
+    failed, finished = [], []
     trajectory = empty_trajectory(spec.task.steps)
     for seed in spec.seeds:
         one = spec.of_seed(seed)
         print(f"{one.run(seed)}\n  to repeat it: {one.command(str(results))}", flush=True)
+        place = results / "runs" / one.run(seed)
+        if take_back(results, one.run(seed), _identity(one), place.parent):
+            print("  was finished before, when another run of its job failed", flush=True)
+            finished.append(one)
+            continue
         try:
             run = learn(one, seed, trajectory)
             measures = _store(one, seed, run, results)
@@ -54,10 +62,20 @@ def train(spec: Spec, results: Path) -> None:
             failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
             print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
         else:
+            finished.append(one)
             rate = spec.task.steps / run.seconds
             print(f"  {run.seconds:.3f} s, {rate:,.0f} steps/s, {measures}", flush=True)
     if failed:
+        for one in finished:
+            place = results / "runs" / one.run(one.seeds[0])
+            files = sorted(place.parent.glob(f"{place.name}.*"))
+            keep(results, one.run(one.seeds[0]), _identity(one), files)
         raise RunsFailed("\n".join(failed))
+
+
+def _identity(one: Spec) -> str:
+    """What a finished run must be of to be used again: its specification and the code that trains it."""
+    return f"{training_code(one.architecture.learner)} {one.canonical()}"
 
 
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
@@ -83,7 +101,7 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     kept = kept_steps(run.trajectory, measures.first_stable_step)
     learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
     place = results / "runs" / spec.run(seed)
-    content = {"spec": spec.canonical(), "run": spec.run(seed)}
+    content: dict[str, Any] = {"spec": spec.canonical(), "run": spec.run(seed)}
     outcome: dict[str, Any] = {
         **measures._asdict(),
         **evaluate(run.setting, spec.task.kind, seed)._asdict(),
@@ -109,6 +127,11 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     )
     with written(place.with_name(f"{place.name}.weights.safetensors")) as beside:
         beside.write_bytes(save(learned, metadata={"spec": spec.canonical()}))
+    # The windows come last: with them a run is complete, and they know the other files.
+    content["checksums"] = {
+        kind: checksum(place.with_name(f"{place.name}.{kind}"))
+        for kind in ("trajectory.parquet", "rrd", "weights.safetensors")
+    }
     write_windows(
         place.with_name(f"{place.name}.windows.parquet"),
         windows,

@@ -144,8 +144,8 @@ def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidenc
     for name, claim in claims.items():
         own = [row for row in evidence if row.claim == name]
         verdict = weakest([row.verdict for row in own])
-        # Of the weakest comparisons the one that is furthest from its threshold, by its p value.
-        decisive = max((row for row in own if row.verdict == verdict), key=lambda row: row.p_value)
+        # Of the weakest comparisons the one that is worst off, by its p value and then by its distance.
+        decisive = max((row for row in own if row.verdict == verdict), key=_shortfall)
         rows.append(
             {
                 "claim": name,
@@ -174,6 +174,12 @@ def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidenc
         row["p_holm"] = adjusted
     frame = pd.DataFrame(rows)
     return frame.astype({"figure": "Int64"}) if rows else frame
+
+
+def _shortfall(row: Evidence) -> tuple[float, float]:
+    """How far a comparison is from its threshold: its p value, and, where that is 1, the distance."""
+    distance = row.holds_from - row.estimate
+    return round(row.p_value, 9), distance if row.at_least else -distance
 
 
 def _recordings(results: Results, cell: str | None) -> list[str]:

@@ -11,7 +11,7 @@ def figure_inputs(wildcards):
     return expand(
         f"{RESULTS}/runs/{{run}}.{{kind}}",
         run=runs,
-        kind=["trajectory.parquet", "windows.parquet"],
+        kind=FIGURES[wildcards.figure].files,
     )
 
 

@@ -33,6 +33,8 @@ rule report:
             category="The page",
             labels={"what": "every claim and its verdict"},
         ),
+        f"{RESULTS}/report/runs.csv",
+        f"{RESULTS}/report/evidence.csv",
     log:
         f"{RESULTS}/logs/report.log",
     benchmark:

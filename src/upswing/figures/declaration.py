@@ -11,3 +11,7 @@ class Declaration(NamedTuple):
     claims: tuple[str, ...]  # ids of the claims it bears on
     cells: tuple[str, ...] = ()  # ids of the cells it is drawn from; none: whatever the study has
     number: int | None = None  # in the thesis
+    files: tuple[str, ...] = (
+        "trajectory.parquet",
+        "windows.parquet",
+    )  # of each run, beside the tables

@@ -10,7 +10,9 @@ if TYPE_CHECKING:
     from upswing.runs import Results
 
 CELL = "balancing/table/alpha-1"
-FIGURE = Declaration("A Q table balances, α = 1", "§4.5.1", ("C1", "C2"), (CELL,), number=5)
+FIGURE = Declaration(
+    "A Q table in the balancing task, α = 1", "§4.5.1", ("C1", "C2"), (CELL,), number=5
+)
 
 
 def draw(results: "Results") -> "Drawing":

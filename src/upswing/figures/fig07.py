@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 CELL = "balancing/networks-5/alpha-1"
 TABLE = "balancing/table/alpha-1"
 FIGURE = Declaration(
-    "Networks balance, α = 1", "§4.5.2", ("C4", "C5", "C6"), (CELL, TABLE), number=7
+    "Networks in the balancing task, α = 1", "§4.5.2", ("C4", "C5", "C6"), (CELL, TABLE), number=7
 )
 
 

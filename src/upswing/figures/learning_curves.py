@@ -8,7 +8,9 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs import Results
 
-FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"))
+FIGURE = Declaration(
+    "Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=("windows.parquet",)
+)
 WINDOWS = 40
 """A curve has so many points."""
 
@@ -71,6 +73,6 @@ def draw(results: "Results") -> "Drawing":
             panels.label_ends(panel, ends)
     caption = (
         "Medians over the runs, with the band between the quartiles. Left: each architecture with the "
-        "step size under which most of its runs succeed. Right: all of them with α = 1."
+        "step size of most successes (of equals the first). Right: all of them with α = 1."
     )
     return panels.Drawing(figure, caption, [])

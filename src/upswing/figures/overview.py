@@ -9,7 +9,9 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs import Results
 
-FIGURE = Declaration("All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"))
+FIGURE = Declaration(
+    "All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"), files=()
+)
 ROW = 0.19
 """Height of a cell [inch]."""
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs import Results
 
-FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"))
+FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"), files=())
 
 
 def draw(results: "Results") -> "Drawing":

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from upswing import figures
 from upswing.claims import WEAKEST_FIRST
-from upswing.config import read_yaml
+from upswing.config import Study, read_yaml
 from upswing.pendulum import Pendulum
 from upswing.problems import BadInput
 from upswing.readings import Readings
@@ -26,6 +26,8 @@ from upswing.sweeps.results import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.tables import CELLS, EVIDENCE, RUNS, VERDICTS
 
 PAGE = "report/index.html"
+RUNS_CSV, EVIDENCE_CSV = "report/runs.csv", "report/evidence.csv"
+SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
 CAUSES, LIKELIEST = 3, 8
 """So many readings that decide a claim, and so many of the most likely ones, are shown."""
 
@@ -52,13 +54,14 @@ def write_report(results: Path, templates: Path) -> None:
         study=study,
         body=Pendulum(),
         cells=cells,
+        greedy=_greedy(runs),
         cell={row["cell"]: row for row in cells},
         runs=runs,
         verdicts=verdicts,
         counts=_counts(verdicts),
         figures={figure["name"]: figure for figure in _figures(results)},
         readings=_readings(study.readings),
-        swept=_swept(results),
+        swept=_swept(results, study),
         deviations=read_yaml(templates / "deviations.yaml")["deviations"],
         costs=costs(results),
         totals=totals(results, sum(row["seconds"] for row in runs)),
@@ -68,6 +71,9 @@ def write_report(results: Path, templates: Path) -> None:
         script=_own(templates / "page.js"),
         drawings={path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))},
     )
+    for name, table in ((RUNS_CSV, RUNS), (EVIDENCE_CSV, EVIDENCE)):
+        with written(results / name) as beside:
+            pd.read_parquet(results / table).to_csv(beside, index=False)
     with written(results / PAGE) as beside:
         beside.write_text(page, "utf-8")
 
@@ -99,9 +105,14 @@ def _verdicts(results: Path) -> list[Row]:
             row for row in own
             if (row["cells"], row["threshold"]) == (verdict["cells"], verdict["threshold"])
         )  # fmt: skip
-        verdict["decisive"]["several"] = (
-            sum(row["part"] == verdict["decisive"]["part"] for row in own) > 1
-        )
+        for row in own:
+            row["several"] = sum(other["part"] == row["part"] for other in own) > 1
+            row["many_cells"] = len(str(row["cells"]).split(" : ")) > 1
+        verdict["held"] = [
+            next(row["says"] for row in own if row["part"] == part)
+            for part in sorted({row["part"] for row in own})
+            if all(row["verdict"] == "reproduced" for row in own if row["part"] == part)
+        ]
         verdict["figure"] = None if pd.isna(verdict["figure"]) else int(verdict["figure"])
     return verdicts
 
@@ -114,6 +125,15 @@ def _counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:
         for word in reversed(WEAKEST_FIRST)
         if given[word]
     ]
+
+
+def _greedy(runs: list[Row]) -> dict[str, float]:
+    """Of each cell, the mean share of starts from which what was learned succeeds without exploring."""
+    frame = pd.DataFrame(runs)
+    cells = frame["run"].str.rsplit("/", n=1).str[0]
+    return {
+        str(k): float(v) for k, v in frame.groupby(cells)["greedy_success_share"].mean().items()
+    }
 
 
 def _figures(results: Path) -> list[Row]:
@@ -129,7 +149,7 @@ def _figures(results: Path) -> list[Row]:
     return pages
 
 
-def _swept(results: Path) -> Row:
+def _swept(results: Path, study: Study) -> Row:
     """What the sweeps over readings came to; empty if they were not run."""
     if not (results / ROBUST).exists():
         return {"robust": []}
@@ -148,9 +168,24 @@ def _swept(results: Path) -> Row:
             {"name": name, "data": _picture(results / "figures" / f"readings-{name}.svg")}
             for name in judged["sweep"].unique()
         ],
+        "judged": [row["claim"] for row in robust],
+        "turning": {claim: _turning(results, claim) for claim in ("C8", "C9")},
         "selection": selection[:LIKELIEST],
+        "chosen_first": bool(selection)
+        and all(getattr(study.readings, name) == selection[0][name] for name in SELECTED),
         "selected_of": len(selection),
     }
+
+
+def _turning(results: Path, claim: str) -> list[str]:
+    """The readings that alone make a claim hold, by its estimates, that does not under the study's."""
+    judged = pd.read_parquet(results / READINGS)
+    own = judged[judged["claim"] == claim]
+    default = own.loc[own["is_default"], "estimate_holds"]
+    if own.empty or default.empty or bool(default.iloc[0]):
+        return []
+    alone = own[own["readings"].map(lambda text: len(json.loads(text)) == 1)]
+    return [str(label) for label in alone.loc[alone["estimate_holds"], "label"]]
 
 
 def _picture(path: Path) -> str:
