@@ -33,6 +33,15 @@ reproduce: install ## Run the whole study: figures, tables, recordings, report
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html"
 
+.PHONY: slurm
+slurm: install ## Run the whole study on a Slurm cluster (see workflow/README.md)
+	@PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml
+	@echo "The report is at results/report/index.html"
+
+.PHONY: unlock
+unlock: install ## After a kill: let the next run begin, when no other is at work
+	@$(SNAKEMAKE) --configfile config/config.yaml --unlock
+
 .PHONY: study
 study: install ## Run another study: make study CONFIG=config/mine.yaml
 	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }

@@ -1,5 +1,6 @@
 """Accidents, for real: killed, out of disk or memory, in each other's way, failing inside a job."""
 
+import contextlib
 import os
 import resource
 import shutil
@@ -74,11 +75,14 @@ def begun(study):
 
 def trainers(process):
     """The training jobs below a Snakemake."""
-    return [
-        child
-        for child in psutil.Process(process.pid).children(recursive=True)
-        if "train" in " ".join(child.cmdline()) and "python" in child.name()
-    ]
+    found = []
+    with contextlib.suppress(psutil.NoSuchProcess):
+        for child in psutil.Process(process.pid).children(recursive=True):
+            with contextlib.suppress(psutil.NoSuchProcess):  # and no zombie
+                command = child.cmdline()
+                if "train" in command and "upswing" in " ".join(command[:2]):
+                    found.append(child)
+    return found
 
 
 def whole(study):

@@ -252,7 +252,7 @@ def test_a_comment_among_the_claims_judges_nothing(study):
 
 
 def test_a_reading_reruns_what_it_touches(study):
-    study.write({**SMALL, "readings": {"learning_rate": 0.3}})
+    study.write({**SMALL, "readings": {"learning_rate": 0.1}})
     ran = study.jobs()
     assert ran["train_seeds_0_to_1"] == 1  # the one cell of networks
     study.write(SMALL)

@@ -32,6 +32,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (OSError, RuntimeError) as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 1
+    except Exception as error:
+        if not type(error).__module__.startswith("pyarrow"):
+            raise
+        said = str(error).splitlines()[0]
+        print(
+            f"upswing: a table cannot be read: {said} (`upswing doctor` says which)",
+            file=sys.stderr,
+        )
+        return 1
     return code or 0
 
 

@@ -28,7 +28,7 @@ def fingerprint(*entries: str, packages: Iterable[str] = ()) -> str:
     """
     digest = hashlib.sha256()
     for module in sorted(reachable(*entries)):
-        digest.update(f"{module}\n{ast.dump(_tree(module))}\n".encode())
+        digest.update(f"{module}\n{_content(module)}\n".encode())
     for package in sorted(packages):
         digest.update(f"{package}=={version(package)}\n".encode())
     return digest.hexdigest()[:16]
@@ -57,6 +57,12 @@ def _source(module: str) -> Path | None:
 
 
 @cache
+def _content(module: str) -> str:
+    """A checksum of a module's syntax."""
+    return hashlib.sha256(ast.dump(_tree(module)).encode()).hexdigest()
+
+
+@cache
 def _tree(module: str) -> ast.Module:
     """The syntax of a module without comments, docstrings, layout and what only type checkers read."""
     path = _source(module)
@@ -70,7 +76,13 @@ def _tree(module: str) -> ast.Module:
     return tree
 
 
-def _imports(module: str) -> Iterator[str]:
+@cache
+def _imports(module: str) -> tuple[str, ...]:
+    """The modules of this package that a module imports itself."""
+    return tuple(dict.fromkeys(_imported(module)))
+
+
+def _imported(module: str) -> Iterator[str]:
     for node in ast.walk(_tree(module)):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]

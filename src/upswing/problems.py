@@ -58,8 +58,14 @@ def key_of(place: Place) -> str:
     """``("experiments", 0, "alphas")`` as ``experiments[0].alphas``."""
     text = ""
     for part in place:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+        text += f"[{part}]" if isinstance(part, int) else f".{_readable(part)}"
     return text.removeprefix(".")
+
+
+def _readable(key: str) -> str:
+    """A key on one line, and not endless, whatever was written."""
+    text = key if key.isprintable() and key else repr(key)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:

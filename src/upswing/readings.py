@@ -42,7 +42,10 @@ LearningRate = Annotated[
 
 
 class Readings(BaseModel):
-    """One meaning for every open question; the defaults are those of the ledger."""
+    """One meaning for every open question.
+
+    The defaults of R3 and R10–R12 are those that the rule in ``sweeps/selection.py`` selected.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
@@ -79,10 +82,10 @@ class Readings(BaseModel):
         10, "none", "which neurons of a network have a bias?", (NETWORKS,)
     )
     initial_weights: InitialWeights = _reading(
-        11, 1, "the first weights are uniform in ± this.", (NETWORKS,)
+        11, 0.1, "the first weights are uniform in ± this.", (NETWORKS,)
     )
     learning_rate: LearningRate = _reading(
-        12, 0.1, "backpropagation's own rate η, beside the α of the update rule.", (NETWORKS,)
+        12, 0.3, "backpropagation's own rate η, beside the α of the update rule.", (NETWORKS,)
     )
     error_sign: Literal["corrected", "printed"] = _reading(
         13, "corrected", "E = Q − (r + γ max Q′), or Q − r + γ max Q′ as printed.", (NETWORKS,)

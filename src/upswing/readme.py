@@ -59,6 +59,13 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
     )
 
 
+def counted(table: pd.DataFrame) -> str:
+    """How many claims got which verdict, in a sentence."""
+    of = table.groupby("verdict", sort=False)["claim"].agg(list)
+    parts = [f"{len(claims)} {verdict} ({', '.join(claims)})" for verdict, claims in of.items()]
+    return f"Of {len(table)} claims: {'; '.join(parts)}."
+
+
 def renewed(readme: str, templates: Path) -> str:
     """The README with its generated parts made anew from what is below ``templates``."""
     table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
@@ -66,7 +73,7 @@ def renewed(readme: str, templates: Path) -> str:
     lines += [" | ".join(part.replace("|", r"\|") for part in row) for row in table.to_numpy()]
     deviations = read_yaml(templates / "deviations.yaml")["deviations"]
     parts = {
-        "verdicts": "\n".join(f"| {line} |" for line in lines),
+        "verdicts": counted(table) + "\n\n" + "\n".join(f"| {line} |" for line in lines),
         "deviations": "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1)),
     }
     for name, content in parts.items():

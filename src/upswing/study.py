@@ -32,6 +32,10 @@ def read_study(results: Path) -> Study:
         text = path.read_text("utf-8")
     except OSError:
         raise BadInput([f"{path}: missing; `make reproduce` makes a folder of results"]) from None
+    except UnicodeDecodeError:
+        raise BadInput(
+            [f"{path}: is not text in UTF-8; delete it and run the study again"]
+        ) from None
     return _parse(text, str(path))
 
 
