@@ -16,6 +16,7 @@ from upswing.matrix import Matrix
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.study import canonical, read_study, write_study
+from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.sweeps.plan import (
     Sweep,
     canonical_of,
@@ -26,7 +27,7 @@ from upswing.sweeps.plan import (
     options_of,
     specs,
 )
-from upswing.sweeps.results import DECISIVE, READINGS, ROBUST, SELECTION, write_readings
+from upswing.sweeps.results import write_readings
 from upswing.sweeps.robustness import decisive, summary, sweep_of
 from upswing.sweeps.selection import CELLS, select
 from upswing.sweeps.sweep import write_group
@@ -133,17 +134,18 @@ def test_the_project_s_own_sweeps_fit_its_study():
 def test_what_a_job_depends_on_is_in_its_checksum(swept):
     _, sweeps = swept
     group = groups(sweeps["networks"], STUDY)[0]
-    before = content_of(sweeps["networks"], STUDY, group)
+
+    def of(study):
+        return content_of(sweeps["networks"], study, group, Matrix(study).cells)
+
+    before = of(STUDY)
     more_seeds = STUDY.model_copy(update={"seeds": (0, 1, 2, 3)})
-    assert content_of(sweeps["networks"], more_seeds, group) == before
+    assert of(more_seeds) == before
     other_epsilon = STUDY.model_copy(update={"epsilon": 0.1})
-    assert content_of(sweeps["networks"], other_epsilon, group) != before
+    assert of(other_epsilon) != before
     readings = STUDY.readings.model_copy(update={"biases": "both"})
     # The grid fixes it anyway.
-    assert (
-        content_of(sweeps["networks"], STUDY.model_copy(update={"readings": readings}), group)
-        == before
-    )
+    assert of(STUDY.model_copy(update={"readings": readings})) == before
 
 
 @pytest.mark.parametrize(

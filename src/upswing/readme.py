@@ -9,7 +9,7 @@ from upswing.config import read_yaml
 from upswing.problems import BadInput
 from upswing.report import words
 from upswing.store.files import written
-from upswing.sweeps.results import SELECTION
+from upswing.sweeps.names import SELECTION
 from upswing.tables import VERDICTS
 
 FIGURES = ("overview", "step-sizes")

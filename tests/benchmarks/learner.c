@@ -38,8 +38,8 @@ static void begin(void) {}
 static REAL w[ACTIONS][TILES][FIRST], u[ACTIONS][ONE(SECOND)][FIRST], v[ACTIONS][SECOND ? ONE(SECOND) : FIRST];
 /* activations of this state (0) and of the next (1) */
 static REAL h_[2][ACTIONS][FIRST], g_[2][ACTIONS][ONE(SECOND)];
-static REAL logistic(REAL x) { return 1 / (1 + (sizeof(REAL) == 4 ? expf(-x) : exp(-x))); }
-static void forward(int a, int tile, int which, double *q) {
+static inline REAL logistic(REAL x) { return 1 / (1 + (sizeof(REAL) == 4 ? expf(-x) : exp(-x))); }
+static inline __attribute__((always_inline)) void forward(int a, int tile, int which, double *q) {
     REAL (*h)[FIRST] = h_[which], (*g)[ONE(SECOND)] = g_[which], sum = 0;
     (void)g;
     for (int j = 0; j < FIRST; j++) h[a][j] = logistic(w[a][tile][j]);
@@ -55,7 +55,7 @@ static void forward(int a, int tile, int which, double *q) {
 #endif
     *q = sum;
 }
-static void values(int tile, int which, double *q) {
+static inline __attribute__((always_inline)) void values(int tile, int which, double *q) {
     for (int a = 0; a < ACTIONS; a++) forward(a, tile, which, &q[a]);
 }
 static void update(int tile, int a, double error) {

@@ -54,34 +54,51 @@ def ours(learner: str, steps: int, seed: int, modular: bool = False) -> float:
     return (time.perf_counter() - begin) / steps * 1e9
 
 
+FLAGS = ([], ["-mprefer-vector-width=128"], ["-fno-tree-vectorize"])
+"""Beside -O3 -march=native. On short layers the compiler's own choice of vectors can be the slowest by far,
+so the fastest of these builds is taken."""
+
+
 @cache
 def compiled_c(learner: str, real: str) -> Path | None:
     """The C program for a learner, compiled for this processor; None where there is no compiler."""
     if not shutil.which("gcc"):
         return None
     first, second = (*HIDDEN[learner], 0, 0)[:2]
-    program = Path(mkdtemp(prefix="upswing-bench-")) / f"{learner}-{real}"
-    subprocess.run(
-        [
-            "gcc", "-O3", "-march=native", f"-DREAL={real}", f"-DFIRST={first}",
-            f"-DSECOND={second}", str(Path(__file__).with_name("learner.c")), "-o", str(program),
+    folder = Path(mkdtemp(prefix="upswing-bench-"))
+    source = str(Path(__file__).with_name("learner.c"))
+    builds = []
+    for number, flags in enumerate(FLAGS):
+        program = folder / f"{learner}-{real}-{number}"
+        macros = [f"-DREAL={real}", f"-DFIRST={first}", f"-DSECOND={second}"]
+        command = [
+            "gcc",
+            "-O3",
+            "-march=native",
+            *flags,
+            *macros,
+            source,
+            "-o",
+            str(program),
             "-lm",
-        ],
-        check=True,
-    )  # fmt: skip
-    return program
+        ]
+        subprocess.run(command, check=True)
+        builds.append((min(_timed(program, learner, 200_000, seed) for seed in range(3)), program))
+    return min(builds)[1]
 
 
-def in_c(learner: str, steps: int, seed: int, real: str) -> float | None:
-    """Nanoseconds a step of the C program."""
-    program = compiled_c(learner, real)
-    if program is None:
-        return None
+def _timed(program: Path, learner: str, steps: int, seed: int) -> float:
     alpha = "1" if HIDDEN[learner] else "0.001"
     done = subprocess.run(
         [program, str(steps), str(seed), alpha], capture_output=True, text=True, check=True
     )
     return float(done.stdout.split()[0])
+
+
+def in_c(learner: str, steps: int, seed: int, real: str) -> float | None:
+    """Nanoseconds a step of the C program."""
+    program = compiled_c(learner, real)
+    return None if program is None else _timed(program, learner, steps, seed)
 
 
 def locate(angle: float, velocity: float) -> int:

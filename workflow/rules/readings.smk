@@ -22,6 +22,7 @@ rule sweep:
             SWEEPS[wildcards.sweep],
             STUDY,
             SWEPT[f"{wildcards.sweep}/{wildcards.group}"][1],
+            MATRIX.cells,
         ),
         code=lambda wildcards: sweep_code(SWEEPS[wildcards.sweep], STUDY),
     shell:

@@ -1,4 +1,7 @@
 # Recordings that compare runs, and those that the page shows.
+#
+# They read files of all runs. The table of runs stands for them: it is made from a file of each run, and a
+# job of training writes all files of a run together.
 
 
 rule comparisons:
@@ -6,11 +9,6 @@ rule comparisons:
         f"{RESULTS}/study.json",
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/verdicts.parquet",
-        expand(
-            f"{RESULTS}/runs/{{run}}.{{kind}}",
-            run=MATRIX.runs,
-            kind=["trajectory.parquet", "windows.parquet"],
-        ),
     output:
         expand(
             f"{RESULTS}/recordings/{{name}}.rrd",
@@ -32,7 +30,6 @@ rule viewer:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/verdicts.parquet",
         expand(f"{RESULTS}/figures/{{figure}}.json", figure=DRAWABLE),
-        expand(f"{RESULTS}/runs/{{run}}.rrd", run=MATRIX.runs),
         rules.comparisons.output,
         "report/viewer.html",
     output:

@@ -14,4 +14,4 @@ class Declaration(NamedTuple):
     files: tuple[str, ...] = (
         "trajectory.parquet",
         "windows.parquet",
-    )  # of each run, beside the tables
+    )  # of each run; without, the table of runs stands for all of them

@@ -8,9 +8,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs import Results
 
-FIGURE = Declaration(
-    "Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=("windows.parquet",)
-)
+FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=())
 WINDOWS = 40
 """A curve has so many points."""
 

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from upswing.figures.style import GRID, WIDTH, save, subplots
+from upswing.sweeps.names import READINGS
 from upswing.sweeps.plan import Sweep, number_of, options_of
-from upswing.sweeps.results import READINGS
 
 SHADES = {
     "reproduced": "#0B6B3A",

@@ -22,7 +22,7 @@ from upswing.report.scale import strip
 from upswing.store.files import written
 from upswing.store.provenance import provenance
 from upswing.study import read_study
-from upswing.sweeps.results import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.tables import CELLS, EVIDENCE, RUNS, VERDICTS
 
 PAGE = "report/index.html"

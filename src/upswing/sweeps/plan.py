@@ -119,9 +119,22 @@ def specs(sweep: Sweep, study: Study, overrides: Overrides) -> Iterator[Spec]:
         yield cells[cell].model_copy(update={"readings": readings, "seeds": seeds})
 
 
-def content_of(sweep: Sweep, study: Study, group: Group) -> str:
-    """A checksum of everything that a job's result depends on, besides the code."""
-    texts = [spec.canonical() for member in group.members for spec in specs(sweep, study, member)]
+def content_of(sweep: Sweep, study: Study, group: Group, cells: Mapping[str, Spec]) -> str:
+    """A checksum of everything that a job's result depends on, besides the code.
+
+    ``cells`` are those of the study, which the workflow has already.
+    """
+    # In a grid every varied reading is said by the group; in pairs it is the study's where it is not.
+    said = {name: options_of(name)[0] for name in sweep.vary} if sweep.how == "grid" else {}
+    update = {
+        "readings": study.readings.model_copy(update=said),
+        "seeds": tuple(range(sweep.first_seed, sweep.first_seed + sweep.seeds)),
+    }
+    texts = [
+        cells[cell].model_copy(update=update).canonical()
+        for cell in (*sweep.cells, *sweep.cells_of_singles)
+    ]
+    texts += [canonical_of(member) for member in group.members]
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
 

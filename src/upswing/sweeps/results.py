@@ -8,16 +8,12 @@ import pandas as pd
 from upswing.claims import Claim
 from upswing.problems import BadInput
 from upswing.study import read_study
+from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.sweeps.plan import Sweep
 from upswing.sweeps.read import read_sweep
 from upswing.sweeps.robustness import decisive, robustness, summary
 from upswing.sweeps.selection import SWEEP, select
 from upswing.tables import write_table
-
-SELECTION = "tables/selection.parquet"
-READINGS = "tables/readings.parquet"
-DECISIVE = "tables/decisive.parquet"
-ROBUST = "tables/robust.parquet"
 
 
 def write_readings(
