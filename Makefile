@@ -79,8 +79,21 @@ clean-orphans: install ## Delete runs that are no longer in the configuration
 	@$(BIN)/upswing clean-orphans results
 
 .PHONY: test
-test: install ## Run all tests
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup
+test: install ## Run the tests
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup -m "not heavy"
+
+.PHONY: test-heavy
+test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup -m heavy
+
+.PHONY: test-all
+test-all: test test-heavy ## Run all tests, those that take long too
+
+.PHONY: audit
+audit: ## Ask a public database for known vulnerabilities of the pinned versions (needs a network)
+	$(PYTHON) -m venv --clear .audit-venv
+	.audit-venv/bin/python -m pip install --quiet --disable-pip-version-check pip-audit
+	.audit-venv/bin/pip-audit --requirement requirements.lock --no-deps --disable-pip; status=$$?; rm -rf .audit-venv; exit $$status
 
 .PHONY: lint
 lint: install ## Check style and formatting

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
@@ -27,6 +28,13 @@ except BadInput as error:
     raise WorkflowError(str(error)) from None
 
 RESULTS = STUDY.results
+if Path(RESULTS, "study.json").exists() and not any(
+    Path(".snakemake/metadata").glob("*")
+):
+    logger.warning(
+        f"There is no record of how these results were made (.snakemake is missing): what is in {RESULTS} is "
+        "taken as it is, whatever the code or the configuration has become since. If unsure: make clean"
+    )
 MATRIX = Matrix(STUDY)
 # A figure can be drawn when all cells that it shows are in the study.
 DRAWABLE = drawable(MATRIX.cells)
@@ -46,6 +54,15 @@ rule all:
     input:
         f"{RESULTS}/report/index.html",
         f"{RESULTS}/report/viewer",
+        expand(
+            f"{RESULTS}/tables/{{table}}.parquet",
+            table=["runs", "cells", "verdicts", "evidence"],
+        ),
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{kind}}",
+            figure=DRAWABLE,
+            kind=["svg", "png", "json"],
+        ),
         expand(
             f"{RESULTS}/recordings/{{name}}.rrd",
             name=comparison_names(CLAIMS, MATRIX.cells),

@@ -94,6 +94,7 @@ def whole(study):
     assert {finding.what for finding in found} <= {"missing"}
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("who", ["snakemake", "job", "both"])
 def test_kill_9_loses_nothing_finished_and_a_rerun_ends_as_if_undisturbed(study, undisturbed, who):
     process = begun(study)
@@ -120,6 +121,7 @@ def test_kill_9_loses_nothing_finished_and_a_rerun_ends_as_if_undisturbed(study,
     assert not examine(study.folder / "results").orphans
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGTERM])
 def test_asked_to_end_it_ends_its_jobs_and_goes_on_later(study, undisturbed, sign):
     process = begun(study)
@@ -133,6 +135,7 @@ def test_asked_to_end_it_ends_its_jobs_and_goes_on_later(study, undisturbed, sig
     pd.testing.assert_frame_equal(rows(study), undisturbed)
 
 
+@pytest.mark.heavy
 def test_two_studies_at_once_in_one_folder_do_not_mix(study, undisturbed):
     process = begun(study)
     second = study.snakemake(*TABLES)
