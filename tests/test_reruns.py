@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import yaml
 
@@ -235,3 +236,23 @@ def test_runs_of_a_removed_alpha_are_named_and_deleted(done, tmp_path):
     assert len(orphans) == 2 * 4
     assert delete_orphans(copy / "results") == orphans
     assert study.plan() == {}
+
+
+@pytest.mark.heavy
+def test_two_runs_from_nothing_and_one_core_or_two_give_the_same_tables(done, tmp_path):
+    alone = Edited(tmp_path)
+    finished = alone.snakemake("--cores", "1")
+    assert finished.returncode == 0, finished.stdout + finished.stderr
+    differ = ["seconds", "steps_per_second", "git_commit", "dirty", "steps_per_second_median"]
+    for name in ("runs", "cells", "verdicts", "evidence"):
+        one, other = (
+            pd.read_parquet(study.folder / f"results/tables/{name}.parquet")
+            for study in (alone, done)
+        )
+        kept = [column for column in one.columns if column not in differ]
+        pd.testing.assert_frame_equal(one[kept], other[kept])
+    weights = [
+        sorted((study.folder / "results/runs").rglob("*.safetensors")) for study in (alone, done)
+    ]
+    for one, other in zip(*weights, strict=True):
+        assert one.read_bytes() == other.read_bytes()

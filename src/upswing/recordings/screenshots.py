@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 WIDTH = 1440
 """Of a picture [pixels]."""
 
-COLOURS = 128
+COLOURS = 256
 PATIENCE = 20.0
 """A viewer has so long to load what it shows [s]."""
 
@@ -86,4 +86,6 @@ def _picture(
     time.sleep(1.5)  # for what is drawn in the background
     picture = Image.open(BytesIO(viewer.take_screenshot(max_size=WIDTH))).convert("RGB")
     with written(path) as beside:
-        picture.quantize(COLOURS).save(beside, format="PNG", optimize=True)
+        picture.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE).save(
+            beside, format="PNG", optimize=True
+        )

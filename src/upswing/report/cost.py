@@ -8,6 +8,9 @@ import pandas as pd
 BENCHMARK = "tables/benchmark.parquet"
 """Where `make bench` leaves what it measured."""
 
+GROWTH = "tables/growth.parquet"
+"""Where `make bench-growth` does."""
+
 NOT_STUDY = ("sweep", "readings")
 """Rules of ``make readings``, which is not the study itself."""
 

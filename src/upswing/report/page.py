@@ -17,7 +17,7 @@ from upswing.pendulum import Pendulum
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.report import words
-from upswing.report.cost import BENCHMARK, costs, totals
+from upswing.report.cost import BENCHMARK, GROWTH, costs, totals
 from upswing.report.scale import strip
 from upswing.store.files import written
 from upswing.store.provenance import provenance
@@ -66,6 +66,7 @@ def write_report(results: Path, templates: Path) -> None:
         costs=costs(results),
         totals=totals(results, sum(row["seconds"] for row in runs)),
         benchmark=_rows(results / BENCHMARK) if (results / BENCHMARK).exists() else [],
+        growth=_rows(results / GROWTH) if (results / GROWTH).exists() else [],
         provenance=provenance(),
         style=_own(templates / "style.css"),
         script=_own(templates / "page.js"),
