@@ -169,7 +169,7 @@ def _swept(results: Path, study: Study) -> Row:
             {"name": name, "data": _picture(results / "figures" / f"readings-{name}.svg")}
             for name in judged["sweep"].unique()
         ],
-        "judged": [row["claim"] for row in robust],
+        "judged": {row["claim"]: row for row in robust},
         "turning": {claim: _turning(results, claim) for claim in ("C8", "C9")},
         "selection": selection[:LIKELIEST],
         "chosen_first": bool(selection)

@@ -20,6 +20,9 @@ from upswing.verdicts import judge, sum_up
 HOLDS = ("reproduced", "partly")
 """Verdicts under which a claim holds, at least partly."""
 
+BEST_PAIRS = 2
+"""Of a pair of readings, so many pairs of options are named."""
+
 Row = dict[str, Any]
 
 
@@ -173,11 +176,15 @@ def _of_grid(of: pd.DataFrame, sweep: Sweep) -> Iterator[Row]:
 
 
 def _shares(of: pd.DataFrame, names: tuple[str, ...]) -> str:
-    parts = []
+    """The share of each option, or of the pairs of options under which the claim holds most often."""
+    shares = []
     for options, group in of.groupby([of[name] for name in names], sort=False):
         words = " & ".join(str(option) for option in options)
-        parts.append(f"{words}: {group['estimate_holds'].mean():.0%}")
-    return ", ".join(parts)
+        shares.append((float(group["estimate_holds"].mean()), words))
+    if len(names) > 1:
+        shares = sorted(shares, key=lambda pair: -pair[0])[:BEST_PAIRS]
+        return "most with " + ", ".join(f"{words}: {share:.0%}" for share, words in shares)
+    return ", ".join(f"{words}: {share:.0%}" for share, words in shares)
 
 
 def _of_changes(of: pd.DataFrame, sweep: Sweep) -> Iterator[Row]:
