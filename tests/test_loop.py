@@ -60,7 +60,7 @@ def test_same_trajectory_as_the_transcription(kind, architecture, readings, alph
         kind,
         architecture,
         alpha,
-        steps=2_500 if table else NETWORKS_AGREE.get(readings.get("reward_unit"), 500),
+        steps=2_500 if table else NETWORKS_AGREE.get(readings.get("reward_unit"), 250),
         **readings,
     )
     for seed in (0, 1):

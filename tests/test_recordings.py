@@ -303,10 +303,10 @@ def test_screenshots_are_taken(results, tmp_path, monkeypatch):
 
 def test_the_readme_shows_the_pictures_that_there_are():
     shown = set(
-        re.findall(r"\((report/pictures/[a-z]+\.png)\)", Path("README.md").read_text("utf-8"))
+        re.findall(r"\((report/pictures/[a-z-]+\.png)\)", Path("README.md").read_text("utf-8"))
     )
     assert shown == {str(path) for path in Path("report/pictures").glob("*.png")}
-    assert len(shown) == 3
+    assert len(shown) == 5
 
 
 def test_rerun_is_installed_beside_python():

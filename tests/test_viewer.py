@@ -184,7 +184,12 @@ def test_the_web_viewer_shows_a_run_and_the_catalogs_table(browser, results, tmp
     words = [RUN] if what == "run" else ["task=balancing"]
     process, _ = browsing(results, *words)
     try:
-        address = re.search(r"at (http://\S+)", process.stdout.readline().decode()).group(1)
+        lines = iter(process.stdout.readline, b"")  # a line before may say that a port is in use
+        address = next(
+            found.group(1)
+            for line in lines
+            if (found := re.search(r"at (http://\S+)", line.decode()))
+        )
         page, requests = opened(browser, address)
         page.wait_for_selector("canvas.visible", timeout=LONG)
         assert shows_something(page, tmp_path)
