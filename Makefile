@@ -53,7 +53,7 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 	@echo "The report is at results/smoke/report/index.html"
 
 .PHONY: readings
-readings: install ## Judge every claim under other readings too (some 25 minutes on 2 cores; goes on where it stopped)
+readings: install ## Judge every claim under other readings too (half an hour on 2 cores; goes on where it stopped)
 	@$(SNAKEMAKE) --configfile config/config.yaml -- readings
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html#robust"
@@ -75,7 +75,7 @@ doctor: install ## Check that results are whole; says what to delete where they 
 	@$(BIN)/upswing doctor results
 
 .PHONY: clean-orphans
-clean-orphans: install ## Delete runs that are no longer in the configuration
+clean-orphans: install ## Delete runs that the study, as it last ran, no longer has
 	@$(BIN)/upswing clean-orphans results
 
 .PHONY: test

@@ -1,10 +1,8 @@
-"""Sweeps over readings: what is swept, what comes of it, which reading is the default, what decides."""
+"""Sweeps over readings: what is swept, and what comes of it."""
 
 import itertools
-import json
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -15,21 +13,18 @@ from upswing.figures.readings import draw_readings
 from upswing.matrix import Matrix
 from upswing.problems import BadInput
 from upswing.readings import Readings
-from upswing.study import canonical, read_study, write_study
+from upswing.study import canonical, write_study
 from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.sweeps.plan import (
-    Sweep,
     canonical_of,
     content_of,
     groups,
-    label,
     load_sweeps,
     options_of,
     specs,
 )
 from upswing.sweeps.results import write_readings
-from upswing.sweeps.robustness import decisive, summary, sweep_of
-from upswing.sweeps.selection import CELLS, select
+from upswing.sweeps.selection import CELLS
 from upswing.sweeps.sweep import write_group
 from upswing.tables import collect_runs
 from upswing.train import train
@@ -242,135 +237,3 @@ def test_missing_groups_are_named(swept, tmp_path):
         write_readings(tmp_path, sweeps, load_claims(Path("config/claims.yaml")))
     with pytest.raises(BadInput, match="no such group; did you mean 'as-the-study'"):
         write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi")
-
-
-# The rule of selection.
-
-
-def successes(readings, k7, k9, k11, n=20):
-    rows = []
-    for (name, cell), k in zip(CELLS.items(), (k7, k9, k11), strict=True):
-        task = cell.split("/")[0]
-        for seed in range(n):
-            won = seed < k
-            rows.append(
-                {
-                    "readings": json.dumps(readings), "cell": cell, "task": task, "seed": seed,
-                    "falls_last_fifth": 0 if won or task != "balancing" else 3,
-                    "upright_share": 0.95 if won or task == "balancing" else 0.5, "name": name,
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
-
-
-def test_the_likelihood_is_that_of_the_ledger():
-    runs = pd.concat(
-        [
-            successes({"biases": "both"}, 20, 20, 10),
-            successes({"biases": "none"}, 19, 0, 9),
-            successes({"biases": "hidden"}, 19, 0, 9),
-        ]
-    )
-    chosen = select(runs)
-    p7, p9, p11 = 20 / 22, 1 / 22, 10 / 22
-    assert chosen["biases"].tolist() == ["none", "hidden", "both"]  # equal ones in their order
-    assert chosen.at[0, "likelihood"] == pytest.approx(p7 * (1 - p9) * p11 * (1 - p11))
-    assert chosen.at[2, "likelihood"] == pytest.approx(21 / 22 * (1 / 22) * (11 / 22) ** 2)
-    assert chosen.loc[0, ["p7_successes", "p9_successes", "p11_successes"]].tolist() == [19, 0, 9]
-
-
-def test_the_default_is_the_reading_that_the_rule_selected():
-    evidence = pd.read_csv("report/selection.csv", dtype=str)
-    assert len(evidence) == 3 * 3 * 3 * 5
-    assert evidence["likelihood"].astype(float).is_monotonic_decreasing
-    readings = load(Path("config/config.yaml")).readings
-    for configured in (readings, Readings()):
-        for name in ("reward_unit", "biases", "initial_weights", "learning_rate"):
-            value = getattr(configured, name)
-            assert evidence.at[0, name] == (
-                f"{value:g}" if isinstance(value, float | int) else value
-            )
-
-
-def test_the_evidence_of_the_selection_is_that_of_the_results_where_they_are():
-    path = Path("results") / SELECTION
-    if not path.exists() or read_study(Path("results")) != load(Path("config/config.yaml")):
-        pytest.skip("`make readings` has not been run here")
-    found, shown = pd.read_parquet(path), pd.read_csv("report/selection.csv")
-    np.testing.assert_allclose(found["likelihood"], shown["likelihood"], rtol=1e-4)
-    assert found["p11_successes"].tolist() == shown["p11_successes"].tolist()
-
-
-# What decides a claim.
-
-GRID = Sweep(vary=("biases", "initial_weights"), how="grid", seeds=1, cells=("a",))
-PAIRS = Sweep(vary=("first_q", "reset", "wrap"), how="pairs", seeds=1, cells=("a",))
-
-
-def grid_of(holds):
-    rows = []
-    for biases, weights in itertools.product(options_of("biases"), options_of("initial_weights")):
-        held = holds(biases, weights)
-        rows.append(
-            {
-                "claim": "C1", "sweep": "networks", "biases": biases, "initial_weights": str(weights),
-                "readings": json.dumps({"biases": biases, "initial_weights": weights}),
-                "holds": held, "estimate_holds": held, "verdict": "partly" if held else "inconclusive",
-                "is_default": False,
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
-
-
-def test_a_reading_that_alone_decides_explains_all_of_it():
-    found = decisive(grid_of(lambda biases, _: biases == "none"), {"networks": GRID})
-    assert found["readings"].tolist() == ["R10"]
-    assert found.at[0, "effect"] == pytest.approx(1)
-    assert "none: 100%" in found.at[0, "under"]
-
-
-def test_two_readings_that_decide_together_are_a_pair():
-    order = ["none", "hidden", "both"]
-    weights = [1, 0.5, 0.1]
-    found = decisive(
-        grid_of(lambda b, w: (order.index(b) + weights.index(w)) % 3 == 0), {"networks": GRID}
-    )
-    assert found["readings"].tolist() == ["R10 × R11"]
-    assert found.at[0, "effect"] == pytest.approx(1)
-
-
-def test_nothing_decides_what_is_always_the_same():
-    assert decisive(grid_of(lambda *_: True), {"networks": GRID}).empty
-    assert summary(grid_of(lambda *_: True)).at[0, "holds"] == 9
-
-
-def test_changes_alone_and_in_pairs_that_turn_a_claim():
-    def row(readings, holds):
-        return {"claim": "C1", "sweep": "tables", "readings": json.dumps(readings), "holds": holds,
-                "estimate_holds": holds, "verdict": "partly", "is_default": not readings}  # fmt: skip
-
-    judged = pd.DataFrame(
-        [
-            row({}, True),
-            row({"first_q": "random"}, False),
-            row({"reset": "terminal"}, True),
-            row({"wrap": "unbounded"}, True),
-            row({"first_q": "random", "reset": "terminal"}, False),
-            row({"reset": "terminal", "wrap": "unbounded"}, False),
-        ]
-    )
-    found = decisive(judged, {"tables": PAIRS}).set_index("readings")
-    assert set(found.index) == {"R5", "R7 × R4"} or set(found.index) == {"R5", "R4 × R7"}
-    assert found.at["R5", "effect"] == 1
-    assert found.at["R5", "under"] == "fails with random"
-
-
-def test_a_claim_is_judged_where_most_of_what_touches_it_varies():
-    study = load(Path("config/config.yaml"))
-    sweeps = load_sweeps(Path("config/readings.yaml"), study)
-    claims = load_claims(Path("config/claims.yaml"))
-    where = {name: sweep_of(claim, sweeps, study) for name, claim in claims.items()}
-    of_networks = {"C4", "C5", "C6", "C10", "C12", "C13", "C14", "C15"}
-    assert {name for name, sweep in where.items() if sweep == "networks"} == of_networks
-    assert where["C16"] is None
-    assert label({"biases": "none", "learning_rate": 0.3}) == "R10 none, R12 0.3"

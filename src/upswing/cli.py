@@ -98,7 +98,7 @@ def _parser() -> argparse.ArgumentParser:
     summary = "Take the README's pictures of the recordings, in a viewer without a screen."
     added = verbs.add_parser("screenshots", help=summary, description=summary, parents=[results])
     added.add_argument("--into", type=Path, default=Path("report/pictures"))
-    added.add_argument("--run", default="full-control/modular-networks-5/alpha-1/seed-4")
+    added.add_argument("--run", default="full-control/table/alpha-0.01/seed-4")
     added.add_argument("--task", default="full-control")
     added.set_defaults(verb=_screenshots)
 

@@ -1,7 +1,7 @@
 """Sine, cosine and exponential function in elementary operations: the same bits on every processor.
 
 The C library's differ in their last digit from processor to processor, and one digit is enough to turn
-a long run into another. These are additions and multiplications, each rounded as IEEE 754 says, to about
+a long run into another. These are sums, products and quotients, each rounded as IEEE 754 says, to about
 a unit in the last place; and a processor can do several at once.
 """
 

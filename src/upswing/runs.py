@@ -116,14 +116,16 @@ class Results:
 
     def median_run(self, cell: str) -> OneRun:
         """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
-        ordered = self.in_order(cell)
-        return self._one(cell, ordered.iloc[(len(ordered) - 1) // 2])
+        return self._one(cell, self.three_of(cell).iloc[1])
 
     def worst_median_best(self, cell: str) -> list[OneRun]:
         """The first, the middle and the last run of a cell, in the order of its runs."""
+        return [self._one(cell, row) for _, row in self.three_of(cell).iterrows()]
+
+    def three_of(self, cell: str) -> pd.DataFrame:
+        """The rows of the worst, the median and the best run of a cell."""
         ordered = self.in_order(cell)
-        places = (0, (len(ordered) - 1) // 2, len(ordered) - 1)
-        return [self._one(cell, ordered.iloc[place]) for place in places]
+        return ordered.iloc[[0, (len(ordered) - 1) // 2, len(ordered) - 1]]
 
     def _one(self, cell: str, row: pd.Series) -> OneRun:
         return OneRun(

@@ -186,9 +186,7 @@ def _recordings(results: Results, cell: str | None) -> list[str]:
     """The recordings of the worst, the median and the best run of a cell."""
     if cell is None or cell not in results.cells:
         return []
-    ordered = results.in_order(cell)
-    chosen = ordered.iloc[[0, (len(ordered) - 1) // 2, len(ordered) - 1]]
-    return [str(path) for path in chosen["recording"]]
+    return [str(path) for path in results.three_of(cell)["recording"]]
 
 
 def _among(runs: pd.DataFrame, conditions: Mapping[str, Bound]) -> pd.DataFrame:

@@ -2,11 +2,9 @@
 
 from typing import NamedTuple
 
-import pandas as pd
-
 from upswing import statistics
-from upswing.figures.words import SUCCESS
 from upswing.runs import Results
+from upswing.success import succeeds
 
 
 class Share(NamedTuple):
@@ -17,13 +15,6 @@ class Share(NamedTuple):
     high: float
     successes: int
     of: int
-
-
-def succeeds(runs: pd.DataFrame, kind: str) -> pd.Series:
-    """Whether each run of a table balances in its last fifth, or is upright for 90 % of it."""
-    if kind == "balancing":
-        return runs["falls_last_fifth"] == 0
-    return runs["upright_share"] >= SUCCESS
 
 
 def share(results: Results, cell: str) -> Share:

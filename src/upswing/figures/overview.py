@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import SUCCESS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -24,6 +23,7 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.cells import label, share
     from upswing.figures.style import WIDTH, subplots
+    from upswing.success import SUCCESS
 
     tasks: dict[str, list[str]] = {}
     for cell in results.cells:

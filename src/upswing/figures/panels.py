@@ -61,7 +61,7 @@ def whereabouts(axes: Axes, run: OneRun, cell: str) -> None:
     """Where the pendulum was, in time: the share of steps at each angle, darker for more.
 
     A line would fill the panel. The steps are those kept evenly over the run; a column's darkest shade
-    is a half of its steps.
+    is three quarters of its steps.
     """
     total = int(run.trajectory["step"].iloc[-1]) + 1
     evenly = run.trajectory[run.trajectory["step"] % max(1, total // THINNED) == 0]

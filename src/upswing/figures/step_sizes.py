@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import SUCCESS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -18,6 +17,7 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.cells import share
     from upswing.figures.style import grid_of_panels
+    from upswing.success import SUCCESS
 
     curves: dict[tuple[str, str], dict[float, str]] = {}
     for cell, spec in results.cells.items():

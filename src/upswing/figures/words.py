@@ -16,5 +16,3 @@ ORDERED_BY_UPRIGHT = (
     "runs are ordered by their share of upright steps, |φ| ≤ 20°, in the last fifth "
     "(ties: mean reward, seed)"
 )
-SUCCESS = 0.9
-"""A run of full control succeeds if it is upright for this share of its last fifth."""

@@ -12,6 +12,8 @@ import json
 
 import pandas as pd
 
+from upswing.success import succeeds
+
 SWEEP = "selection"
 CELLS = {
     "p7": "balancing/networks-5/alpha-1",
@@ -19,9 +21,6 @@ CELLS = {
     "p11": "full-control/modular-networks-5/alpha-1",
 }
 """The cells of figures 7, 9 and 11."""
-
-UPRIGHT = 0.9
-"""A run of full control succeeds if it is upright for this share of its last fifth."""
 
 
 def select(runs: pd.DataFrame) -> pd.DataFrame:
@@ -35,14 +34,11 @@ def select(runs: pd.DataFrame) -> pd.DataFrame:
         (``runs``), and the share estimated as (k + 1) / (n + 2); ``likelihood``. Equal ones stay in the
         order of the grid.
     """
-    success = (runs["falls_last_fifth"] == 0).where(
-        runs["task"] == "balancing", runs["upright_share"] >= UPRIGHT
-    )
     rows = []
-    for readings, of in runs.assign(success=success).groupby("readings", sort=False):
+    for readings, of in runs.groupby("readings", sort=False):
         row = dict(json.loads(str(readings)))
         for name, cell in CELLS.items():
-            own = of.loc[of["cell"] == cell, "success"]
+            own = succeeds(of[of["cell"] == cell], cell.split("/")[0])
             row[f"{name}_successes"] = int(own.sum())
             row["runs"] = len(own)
             row[name] = (own.sum() + 1) / (len(own) + 2)
