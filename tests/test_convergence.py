@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from upswing.codings import Place
 from upswing.learners import update, values
 from upswing.learners.table import Table
 
@@ -34,9 +35,9 @@ def test_the_largest_error_shrinks_by_the_discount_in_every_full_interval(states
         for visit in rng.permutation(states * 3):  # a full interval, in any order
             state, action = divmod(int(visit), 3)
             target = rewards[state, action] + discount * max(
-                values(table, 0, following[state, action])
+                values(table, Place(0, (following[state, action],)))
             )
-            update(table, 0, state, action, target - table.q[0, state, action])
+            update(table, Place(0, (state,)), action, target - table.q[0, state, action])
         now = np.abs(table.q[0] - best).max()
         assert now <= discount * error + 1e-12
         error = now
@@ -46,7 +47,7 @@ def test_the_largest_error_shrinks_by_the_discount_in_every_full_interval(states
 def test_a_single_update_is_equation_12():
     table = Table(np.array([[[1.0, 2.0, 3.0], [5.0, 4.0, 0.0]]]))
     step_size, reward, discount = 0.25, -1.0, 0.7
-    td_error = reward + discount * max(values(table, 0, 1)) - table.q[0, 0, 1]
-    update(table, 0, 0, 1, step_size * td_error)
+    td_error = reward + discount * max(values(table, Place(0, (1,)))) - table.q[0, 0, 1]
+    update(table, Place(0, (0,)), 1, step_size * td_error)
     assert table.q[0, 0, 1] == pytest.approx(2.0 + 0.25 * (-1.0 + 0.7 * 5.0 - 2.0))
     assert table.q[0, 0, 0] == 1.0

@@ -9,8 +9,8 @@ import pytest
 from scipy.special import expit
 
 from upswing.elementary import LOWEST, exp_of_negative, sine_and_cosine
-from upswing.learners.logistic import logistic
-from upswing.learners.product import product
+from upswing.learners.backpropagation.logistic import logistic
+from upswing.learners.backpropagation.product import product
 
 UNIT = np.finfo(float).eps
 
@@ -61,7 +61,7 @@ def test_the_product_is_that_of_numpy(length):
 ASK = """
 import numpy as np
 from upswing.elementary import exp_of_negative, sine_and_cosine
-from upswing.learners.product import product
+from upswing.learners.backpropagation.product import product
 x = np.random.default_rng(4).uniform(-40, 40, 3_000)
 print([float(part).hex() for value in x for part in sine_and_cosine(value)])
 print([float(exp_of_negative(-abs(value))).hex() for value in x])

@@ -17,11 +17,12 @@ def learned(spec, seed=0):
 
 @pytest.mark.parametrize("architecture", ["table", "modular-networks-5", "networks-20-5"])
 def test_what_was_learned_stays_as_it_is(architecture):
-    setting = learned(make_spec("full-control", architecture, 0.5, 3_000, hand_over="own"))
+    spec = make_spec("full-control", architecture, 0.5, 3_000, hand_over="own")
+    setting = learned(spec)
     before = {name: values.copy() for name, values in setting.learner.learned.items()}
     state, draw = setting.state, setting.actions.bit_generator.state
-    first = evaluate(setting, "full-control", 0)
-    assert evaluate(setting, "full-control", 0) == first
+    first = evaluate(setting, spec, 0)
+    assert evaluate(setting, spec, 0) == first
     for name, values in setting.learner.learned.items():
         np.testing.assert_array_equal(values, before[name])
     assert setting.state == state
@@ -29,16 +30,19 @@ def test_what_was_learned_stays_as_it_is(architecture):
 
 
 def test_a_table_that_has_learned_balances_from_everywhere():
-    found = evaluate(learned(make_spec("balancing", "table", 0.1, 20_000)), "balancing", 0)
+    spec = make_spec("balancing", "table", 0.1, 20_000)
+    found = evaluate(learned(spec), spec, 0)
     assert found.greedy_success_share == 1
     assert found.greedy_upright_share > 0.9
 
 
 def test_without_control_only_the_upright_start_stays_up():
-    found = evaluate(learned(make_spec("balancing", "idle", None, 100)), "balancing", 0)
+    spec = make_spec("balancing", "idle", None, 100)
+    found = evaluate(learned(spec), spec, 0)
     assert found.greedy_success_share == pytest.approx(1 / len(STARTS["balancing"]))
 
 
 def test_a_fresh_table_swings_nothing_up():
-    found = evaluate(prepare(make_spec("full-control", "table"), 0), "full-control", 0)
+    spec = make_spec("full-control", "table")
+    found = evaluate(prepare(spec, 0), spec, 0)
     assert found.greedy_success_share == 0

@@ -8,14 +8,18 @@ from pathlib import Path
 
 import pytest
 
+from upswing.config import Architecture
 from upswing.fingerprint import fingerprint, reachable
 from upswing.matrix import training_code
 
+TABLES, NETS = Architecture(learner="table"), Architecture(learner="networks", hidden=(5,))
 SOURCE = Path(__file__).parents[1] / "src"
 ASK = """
+from upswing.config import Architecture
 from upswing.matrix import training_code
 from upswing.fingerprint import fingerprint
-print(training_code("table"), training_code("networks"), fingerprint("upswing.figures.fig05"),
+print(*(training_code(Architecture(learner=name, hidden=hidden), "balancing")
+        for name, hidden in (("table", ()), ("networks", (5,)))), fingerprint("upswing.figures.fig05"),
       fingerprint("upswing.report.page"))
 """
 TABLE, NETWORKS, FIGURE, REPORT = range(4)
@@ -64,9 +68,14 @@ def changed_by(package, file, old, new):
             "\n    dt   = (pendulum.time_step)\n",
             set(),
         ),
-        ("loop.py", "NOTHING_OPEN = -1", "NOTHING_OPEN = -2", {TABLE, NETWORKS, FIGURE, REPORT}),
-        ("learners/table.py", "+= error", "+= 2 * error", {TABLE}),
-        ("learners/one_hidden.py", "STALE = -1", "STALE = -2", {NETWORKS}),
+        (
+            "loop.py",
+            "range(first, last)",
+            "range(first, last + 1)",
+            {TABLE, NETWORKS, FIGURE, REPORT},
+        ),
+        ("learners/table.py", "+= share", "+= 2 * share", {TABLE}),
+        ("learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {NETWORKS}),
         ("figures/fig05.py", "5_000", "4_000", {FIGURE}),
         ("report/words.py", '"–"', '"-"', {REPORT}),
     ],
@@ -82,11 +91,14 @@ def test_who_notices_an_edit(package, file, old, new, expected):
 def test_a_learner_is_reached_by_its_own_jobs_alone():
     assert "upswing.learners.networks" not in reachable("upswing.train")
     assert {"upswing.pendulum", "upswing.loop", "upswing.policy"} <= reachable("upswing.train")
-    assert training_code("table") != training_code("networks")
+    assert training_code(TABLES, "balancing") != training_code(NETS, "balancing")
+    assert training_code(TABLES, "balancing") != training_code(TABLES, "full-control")
 
 
 def test_versions_of_packages_belong_to_it():
-    assert fingerprint("upswing.tiles") != fingerprint("upswing.tiles", packages=["numpy"])
+    assert fingerprint("upswing.codings.grid") != fingerprint(
+        "upswing.codings.grid", packages=["numpy"]
+    )
 
 
 def test_an_edited_pendulum_is_not_run_from_the_cache_of_the_old_one(package, tmp_path):

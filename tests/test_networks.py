@@ -6,9 +6,10 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from upswing.codings import Place
+from upswing.codings.grid import tiles_for
 from upswing.learners import Beginning, create, update, values
 from upswing.readings import Readings
-from upswing.tiles import tiles_for
 
 SIZES = [(5,), (30,), (20, 5), (1,), (2, 3)]
 BIASES = ["none", "hidden", "both"]
@@ -18,7 +19,7 @@ def make(hidden, biases="none", modular=False, learning_rate=0.3, scale=1.0, see
     readings = Readings(biases=biases, learning_rate=learning_rate, initial_weights=scale)
     tiles = tiles_for("full-control", modular, readings)
     weights = np.random.default_rng(seed)
-    return create("networks", Beginning(tiles, hidden, "", readings, -1.0, weights)), tiles
+    return create("networks", Beginning(tiles, {"hidden": hidden}, readings, -1.0, weights)), tiles
 
 
 def one_hot(tile, tiles):
@@ -36,10 +37,10 @@ def test_updates_are_those_of_autograd(hidden, biases, modular):
     for _ in range(60):
         module, tile = int(rng.integers(tiles.modules)), int(rng.integers(6))
         action, target = int(rng.integers(3)), float(rng.normal())
-        q = values(stepped.stepped, module, tile)
+        q = values(stepped.stepped, Place(module, (tile,)))
         expected = oracle.networks(module, one_hot(tile, tiles.tiles))[0]
         np.testing.assert_allclose(q, expected.detach().numpy(), rtol=1e-12, atol=1e-13)
-        update(stepped.stepped, module, tile, action, target - q[action])
+        update(stepped.stepped, Place(module, (tile,)), action, target - q[action])
         # The gradient of ½E² for E = Q − target is what backpropagation of E means.
         optimiser.zero_grad()
         (0.5 * (expected[action] - target) ** 2).backward()
@@ -61,15 +62,17 @@ def test_what_is_kept_is_never_stale(hidden, biases, visits):
     learner, tiles = make(hidden, biases, modular=True)
     for module, tile, action, learns in visits:
         if learns:
-            update(learner.stepped, module, tile, action, 1.0)
+            update(learner.stepped, Place(module, (tile,)), action, 1.0)
         fresh = learner.networks(module, one_hot(tile, tiles.tiles))[0].detach().numpy()
-        np.testing.assert_allclose(values(learner.stepped, module, tile), fresh, rtol=1e-12)
+        np.testing.assert_allclose(
+            values(learner.stepped, Place(module, (tile,))), fresh, rtol=1e-12
+        )
 
 
 def test_the_loop_steps_the_memory_of_torch():
     learner, tiles = make((5,))
     before = learner.networks(0, one_hot(7, tiles.tiles))[0, 1].item()
-    update(learner.stepped, 0, 7, 1, 1.0)
+    update(learner.stepped, Place(0, (7,)), 1, 1.0)
     assert learner.networks(0, one_hot(7, tiles.tiles))[0, 1].item() > before
 
 
@@ -103,4 +106,4 @@ def test_biases_are_where_the_reading_puts_them(biases, names):
 def test_huge_potentials_do_not_overflow():
     learner, _ = make((5,))
     learner.learned["weights.0"][:] *= 1e6
-    assert np.isfinite(values(learner.stepped, 0, 0)).all()
+    assert np.isfinite(values(learner.stepped, Place(0, (0,)))).all()

@@ -50,7 +50,7 @@ def test_a_value_that_is_not_a_number_does_not_stop_the_policy():
     ("kind", "widest"), [("balancing", np.radians(20)), ("full-control", np.pi)]
 )
 def test_starts_fill_their_range(kind, widest):
-    task, rng = tasks.KINDS[kind](Readings()), np.random.default_rng(1)
+    task, rng = tasks.create(kind, Readings()), np.random.default_rng(1)
     starts = np.array([tasks.start(task, rng) for _ in range(4_000)])
     assert np.abs(starts[:, 0]).max() <= widest
     counts, _ = np.histogram(starts[:, 0], 8, (-widest, widest))
@@ -59,7 +59,9 @@ def test_starts_fill_their_range(kind, widest):
 
 
 def test_random_start_velocities_leave_the_angles_as_they_were():
-    still, moving = (tasks.balancing(Readings(start_velocity=v)) for v in ("zero", "random"))
+    still, moving = (
+        tasks.create("balancing", Readings(start_velocity=v)) for v in ("zero", "random")
+    )
     one, other = np.random.default_rng(1), np.random.default_rng(1)
     a = np.array([tasks.start(still, one) for _ in range(500)])
     b = np.array([tasks.start(moving, other) for _ in range(500)])
@@ -68,7 +70,7 @@ def test_random_start_velocities_leave_the_angles_as_they_were():
 
 
 def test_only_balancing_falls():
-    balancing, full = tasks.balancing(Readings()), tasks.full_control(Readings())
+    balancing, full = (tasks.create(kind, Readings()) for kind in ("balancing", "full-control"))
     assert tasks.fallen(balancing, np.radians(90.1))
     assert not tasks.fallen(balancing, np.radians(-89.9))
     assert not tasks.fallen(full, np.pi)

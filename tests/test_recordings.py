@@ -18,6 +18,7 @@ from PIL import Image
 from tests.helpers import make_spec, run
 from upswing.claims import load_claims
 from upswing.cli import main
+from upswing.codings import locate
 from upswing.loop import empty_trajectory
 from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
@@ -30,7 +31,6 @@ from upswing.recordings.screenshots import headless_viewer, take_screenshots, wa
 from upswing.recordings.selection import select
 from upswing.setting import prepare
 from upswing.snapshots import look, moments, snapshots
-from upswing.tiles import locate
 from upswing.train import train
 
 # One small study serves all tests of this file: on one worker.
@@ -57,15 +57,15 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
 def test_snapshots_are_what_was_known_then():
     spec = make_spec("full-control", "modular-table", 0.5, 4_000)
     setting = prepare(spec, 0)
-    looked = [(0, look(setting.learner))]
+    looked = [(0, look(setting.learner, setting.coding))]
     trajectory = empty_trajectory(4_000)
     setting.advance(trajectory, 0, 4_000)
-    looked.append((4_000, look(setting.learner)))
-    seen = snapshots(setting.tiles, looked)
+    looked.append((4_000, look(setting.learner, setting.coding)))
+    seen = snapshots(setting.coding, looked)
     assert seen.q.shape == (2, 8, 20, 3)
     assert (seen.q[0] == 0).all()
     for angle, velocity in [(0.1, 0.1), (3.0, -7.0), (-2.0, 19.0), (-0.5, 0.5)]:
-        module, tile = locate(setting.tiles, angle, velocity)
+        module, (tile,) = locate(setting.coding, angle, velocity)
         row, column = int((angle + np.pi) // (np.pi / 4)), int((velocity + 20) // 2)
         np.testing.assert_array_equal(
             seen.q[1, row, column], setting.learner.learned["q"][module, tile]

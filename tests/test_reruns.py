@@ -107,7 +107,7 @@ U = "src/upswing/"
         (U + "learners/one_hidden.py", "STALE = -1", "STALE = -2", {TRAIN: 1, **FOLLOWS}),
         (U + "learners/table.py", "+= error", "+= error * 1.0", {TRAIN: 2, **FOLLOWS}),
         (U + "pendulum.py", "gravity: float = 9.81", "gravity: float = 9.80", {TRAIN: CELLS, **FOLLOWS}),
-        (U + "tiles.py", "from math import floor, pi", "from math import floor, pi\nX = 1", {TRAIN: CELLS, **FOLLOWS}),
+        (U + "codings/grid.py", "from math import floor, pi", "from math import floor, pi\nX = 1", {TRAIN: CELLS, **FOLLOWS}),
         (U + "figures/fig05.py", "5_000", "4_000", {"figure": 1, "viewer": 1, "report": 1}),
         (U + "report/words.py", 'UNKNOWN = "–"', 'UNKNOWN = "-"', {"report": 1}),
         (U + "recordings/layout.py", "row_shares=[2, 3]", "row_shares=[3, 3]", {"comparisons": 1, "viewer": 1}),

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from upswing.codings import Place, locate
+from upswing.codings.grid import BALANCING_MODULE, UPSWING_MODULE, Tiles, tiles_for
 from upswing.readings import Readings
-from upswing.tiles import BALANCING_MODULE, UPSWING_MODULE, Tiles, locate, tiles_for
 
 angles = st.floats(-np.pi, np.pi, exclude_max=True)
 any_angles = st.floats(-50, 50)
@@ -22,7 +23,7 @@ HALF_TURN, RADIANS = Readings(), Readings(angle_unit="radians")
 
 @given(codings, any_angles, velocities)
 def test_every_state_has_a_tile_of_an_existing_module(tiles, angle, velocity):
-    module, tile = locate(tiles, angle, velocity)
+    module, (tile,) = locate(tiles, angle, velocity)
     assert 0 <= module < tiles.modules
     assert 0 <= tile < tiles.tiles == (80 if tiles.modular or tiles.angle_parts == 4 else 160)
 
@@ -37,13 +38,14 @@ def test_half_turn_tiles_are_45_degrees_by_2_radians_a_second(kind, parts, limit
             low = np.array([-limit + row * np.pi / 4, -20 + 2 * column])
             for share in (1e-9, 0.5, 1 - 1e-9):
                 state = low + share * np.array([np.pi / 4, 2])
-                assert locate(tiles, *state) == (0, 20 * row + column)
+                assert locate(tiles, *state) == Place(0, (20 * row + column,))
 
 
 def test_radians_leaves_half_of_the_balancing_tiles_unvisited():
     tiles = tiles_for("balancing", False, RADIANS)
     rows = {
-        locate(tiles, angle, 0.0)[1] // 20 for angle in np.linspace(-np.pi / 2, np.pi / 2, 99)[:-1]
+        locate(tiles, angle, 0.0).tiles[0] // 20
+        for angle in np.linspace(-np.pi / 2, np.pi / 2, 99)[:-1]
     }
     assert rows == {1, 2}
 
@@ -82,10 +84,10 @@ def test_a_balancing_module_has_the_tiles_of_the_balancing_task():
         tiles_for("full-control", True, HALF_TURN),
     )
     for angle in np.linspace(-np.pi / 2, np.pi / 2, 101)[:-1]:
-        assert locate(alone, angle, 3.0)[1] == locate(module, angle, 3.0)[1]
+        assert locate(alone, angle, 3.0).tiles == locate(module, angle, 3.0).tiles
 
 
 def test_a_tile_includes_its_lower_edge():
     tiles = Tiles(4, 2.0, 2, False)
-    assert locate(tiles, 0.0, 0.0) == (0, 2 * 20 + 10)
-    assert locate(tiles, -1e-9, -1e-9) == (0, 1 * 20 + 9)
+    assert locate(tiles, 0.0, 0.0) == Place(0, (2 * 20 + 10,))
+    assert locate(tiles, -1e-9, -1e-9) == Place(0, (1 * 20 + 9,))

@@ -32,13 +32,14 @@ INLINED: Any = {**OPTIONS, "forceinline": True}
 
 
 def compiled_modules() -> list[str]:
-    """Where compiled code starts from: the loop, the measures, and every learner there is."""
-    learners = sorted((Path(__file__).parent / "learners").glob("[a-z]*.py"))
-    return [
-        "upswing.loop",
-        "upswing.measures",
-        *(f"upswing.learners.{path.stem}" for path in learners),
+    """Where compiled code starts from: the loop, the measures, and every part the loop can be given."""
+    package = Path(__file__).parent
+    parts = [
+        f"upswing.{room}.{path.stem}"
+        for room in ("codings", "learners", "methods")
+        for path in sorted((package / room).glob("[a-z]*.py"))
     ]
+    return ["upswing.loop", "upswing.measures", *parts]
 
 
 def _choose_cache_directory() -> None:
@@ -83,6 +84,7 @@ class ByType(Generic[P, R]):
     """A function whose body is chosen by the class of its first argument.
 
     Compiled code chooses while compiling, so that it costs nothing; plain Python looks the class up.
+    A class without a body of its own has that of the declaration.
     """
 
     def __init__(self, declaration: Callable[P, R]) -> None:
@@ -91,10 +93,10 @@ class ByType(Generic[P, R]):
 
         @wraps(declaration)
         def call(first: Any, *rest: Any) -> R:
-            return bodies[type(first)](first, *rest)
+            return bodies.get(type(first), declaration)(first, *rest)
 
-        def choose(*types: Any) -> Callable[..., R] | None:
-            return bodies.get(getattr(types[0], "instance_class", type(None)))
+        def choose(*types: Any) -> Callable[..., R]:
+            return bodies.get(getattr(types[0], "instance_class", type(None)), declaration)
 
         overload(call, strict=False, jit_options=INLINED)(choose)
         self.call = call

@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 import yaml
 from pydantic import (
@@ -54,12 +55,42 @@ def _counted(value: Any) -> Any:
     return listed(value)
 
 
+def parts(room: str) -> list[str]:
+    """The names of the files in a folder of parts: what there is to choose from."""
+    files = (Path(__file__).parent / room).glob("[a-z]*.py")
+    return sorted(path.stem.replace("_", "-") for path in files)
+
+
+def _part(room: str) -> AfterValidator:
+    """A part by the name of its file, which is found without importing it."""
+
+    def known(name: str) -> str:
+        if name not in (there := parts(room)):
+            *others, last = [repr(one) for one in there]
+            hint = get_close_matches(name, there, n=1)
+            suggestion = f"; did you mean {hint[0]!r}?" if hint else ""
+            raise ValueError(f"must be {', '.join(others)} or {last}{suggestion}")
+        return name
+
+    return AfterValidator(known)
+
+
+def _choice(room: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": "string", "enum": parts(room)})
+
+
+Kind = Annotated[str, _part("tasks"), _choice("tasks")]
+LearnerName = Annotated[str, _part("learners"), _choice("learners")]
+CodingName = Annotated[str, _part("codings"), _choice("codings")]
+MethodName = Annotated[str, _part("methods"), _choice("methods")]
+
 once = AfterValidator(_no_value_twice)
 """A list in which nothing stands twice."""
 
 Name = Annotated[str, AfterValidator(_named)]
 Alpha = Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)]
 Steps = Annotated[int, Field(ge=1, le=LONGEST_RUN)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 Seed = Annotated[int, Field(ge=0, le=LARGEST_SEED)]
 Seeds = Annotated[
@@ -89,20 +120,59 @@ class Strict(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
+class GoesWith(NamedTuple):
+    """Which learners, codings or methods an option of an architecture is for."""
+
+    part: str
+    always: tuple[str, ...]  # those that need it
+    sometimes: tuple[str, ...]  # those that may have it
+    meaning: str
+
+
+GOES_WITH = {
+    "hidden": GoesWith(
+        "learner", ("networks", "action-input", "dqn"), ("gated",), "one or two sizes"
+    ),
+    "behaviour": GoesWith("learner", ("control",), (), "idle or random"),
+    "halved_after": GoesWith("learner", ("decaying",), (), "a number of updates"),
+    "cuts": GoesWith("coding", ("fine", "hashed"), (), "a number of cuts"),
+    "entries": GoesWith("coding", ("hashed",), (), "a number of entries"),
+    "trace": GoesWith("method", ("q-lambda",), (), "a share λ"),
+}
+"""The options of architectures; an option of a new learner has its line here."""
+
+
+OURS = ("action-input", "control", "decaying", "dqn", "gated", "networks", "table")
+SUITED = {"continuous": ("control", "dqn", "networks"), "tilings": ("control", "decaying", "table")}
+"""What ours can learn from codings that are more, or less, than one tile."""
+
+
 class Task(Strict):
     """A task of §4.3 and how long a run of it is."""
 
-    kind: Literal["balancing", "full-control"] = Field(
+    kind: Kind = Field(
         description="balancing: reset beyond 90°; full-control: any start, never reset."
     )
     steps: Steps = Field(description="Steps of 5 ms in one run.")
+    velocity_weight: NotNegative = Field(
+        default=0.0, description="Beyond the thesis: −w·φ̇² is added to what is learned from [s²]."
+    )
+    shaping: NotNegative = Field(
+        default=0.0,
+        description="Beyond the thesis: the height of a potential of energy [rad²].",
+    )
 
 
 class Architecture(Strict):
     """What learns, and whether one learner or two modules share the state space (§4.4–4.6)."""
 
-    learner: Literal["table", "networks", "control"] = Field(
-        description="What holds Q; a file in src/upswing/learners."
+    learner: LearnerName = Field(description="What holds Q; a file in src/upswing/learners.")
+    coding: CodingName = Field(
+        default="grid", description="What it is told of a state; a file in src/upswing/codings."
+    )
+    method: MethodName = Field(
+        default="q-learning",
+        description="How it learns from a step; a file in src/upswing/methods.",
     )
     hidden: Annotated[
         tuple[Annotated[int, Field(ge=1, le=1000)], ...],
@@ -116,14 +186,50 @@ class Architecture(Strict):
         default=False, description="One learner above the horizontal and one below (§4.6.3)."
     )
 
+    cuts: Annotated[int, Field(ge=2, le=32)] | None = Field(
+        default=None,
+        description="Codings fine and hashed: each tile of the thesis is cut cuts × cuts.",
+    )
+    entries: Annotated[int, Field(ge=1, le=1_000_000)] | None = Field(
+        default=None, description="Coding hashed: into so many entries the tiles are scattered."
+    )
+    trace: Share | None = Field(
+        default=None, description="Method q-lambda: the λ by which a trace decays, beside γ."
+    )
+    halved_after: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
+        default=None,
+        description="Learner decaying: an entry's α is half of its first after so many updates of it.",
+    )
+    epsilon: Share | None = Field(default=None, description="Its own ε in place of the study's.")
+    discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)] | None = Field(
+        default=None, description="Its own γ in place of the study's."
+    )
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        if (self.learner == "networks") != bool(self.hidden):
-            raise ValueError("`hidden` (one or two sizes) goes with `learner: networks`, always")
-        if (self.learner == "control") != (self.behaviour is not None):
-            raise ValueError("`behaviour` (idle or random) goes with `learner: control`, always")
+        for option, goes in GOES_WITH.items():
+            chosen, given = getattr(self, goes.part), getattr(self, option) not in (None, ())
+            if (chosen in goes.always and not given) or (
+                given and chosen not in (*goes.always, *goes.sometimes)
+            ):
+                names = " or ".join(f"`{goes.part}: {name}`" for name in goes.always)
+                raise ValueError(f"`{option}` ({goes.meaning}) goes with {names}, always")
         if self.learner == "control" and self.modular:
             raise ValueError("a control has nothing to divide into modules")
+        if self.learner in OURS and self.learner not in SUITED.get(self.coding, OURS):
+            suited = " or ".join(SUITED[self.coding])
+            raise ValueError(
+                f"`coding: {self.coding}` suits {suited}, not {self.learner}"
+            )
+        if self.learner == "dqn" and self.coding != "continuous":
+            raise ValueError("a dqn learns from the state itself; it needs `coding: continuous`")
+        if len(self.hidden) > 1 and (
+            self.learner == "action-input"
+            or (self.learner, self.coding) == ("networks", "continuous")
+        ):
+            raise ValueError("`hidden` has one size here: there is one hidden layer")
+        if self.modular and self.coding != "grid":
+            raise ValueError("`modular` divides the grid of the thesis; leave `coding` out")
         return self
 
 

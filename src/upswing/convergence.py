@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Place
 from upswing.compiled import compiled
 from upswing.learners import Array, update, values
 from upswing.learners.table import Table
@@ -50,8 +51,9 @@ def full_interval(
     """Update every state and action once, in ``order``, with α = 1 (eq. 11)."""
     for visit in order:
         state, action = visit // ACTIONS, visit % ACTIONS
-        target = rewards[state, action] + discount * max(values(table, 0, following[state, action]))
-        update(table, 0, state, action, target - table.q[0, state, action])
+        next_q = values(table, Place(0, (following[state, action],)))
+        target = rewards[state, action] + discount * max(next_q)
+        update(table, Place(0, (state,)), action, target - table.q[0, state, action])
 
 
 def best_values(following: States, rewards: Array, discount: float) -> Array:

@@ -6,8 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from upswing import loop
+from upswing.environment import State
 from upswing.measures import UPRIGHT
-from upswing.setting import Setting, streams
+from upswing.setting import Setting, new_method, streams
+from upswing.spec import Spec
 
 STARTS = {
     "balancing": np.radians(np.linspace(-20, 20, 9)),
@@ -29,11 +31,12 @@ class Greedy(NamedTuple):
     greedy_upright_share: float  # of the judged steps (balancing: all) of all starts
 
 
-def evaluate(setting: Setting, kind: str, seed: int) -> Greedy:
+def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
     """Follow the policy that was learned, with ε = 0 and α = 0, from every start of the grid.
 
     What was learned stays as it is. A control keeps its own ε: being random is what it does.
     """
+    kind = spec.task.kind
     *_, stream = streams(seed)
     epsilon = 0.0 if setting.learner.epsilon is None else setting.learner.epsilon
     rule = setting.rule._replace(step_size=0.0, epsilon=epsilon)
@@ -43,8 +46,8 @@ def evaluate(setting: Setting, kind: str, seed: int) -> Greedy:
         episode = replace(
             setting,
             rule=rule,
-            state=loop.State(float(angle), 0.0, 0.0, 0.0),
-            left_open=loop.nothing_open(setting.tiles.modules),
+            state=State(float(angle), 0.0, 0.0, 0.0),
+            method=new_method(spec, setting.coding),
             actions=stream,
             starts=stream,
         )

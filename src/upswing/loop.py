@@ -1,46 +1,21 @@
 """Q-learning, line for line as in §3.1.3 (and §3.2.2 for networks), for every learner and coding."""
 
-from math import nan
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing import pendulum, tasks
+from upswing import tasks
+from upswing.codings import locate
 from upswing.compiled import compiled
-from upswing.learners import Array, update, values
+from upswing.environment import State, move
+from upswing.learners import values
+from upswing.methods import Rule, Step, after_choice, before_choice, learn_from
 from upswing.pendulum import Pendulum
 from upswing.policy import epsilon_greedy
 from upswing.tasks import ACCELERATIONS, Task
-from upswing.tiles import Tiles, locate
 
 Column = NDArray[np.float32]
-
-RESET_FALLEN, RESET_TERMINAL, RESET_START = 0, 1, 2  # R7
-OWNER, OWN, TERMINAL = 0, 1, 2  # R14
-NOTHING_OPEN = -1
-
-
-class Rule(NamedTuple):
-    """The update rule and the policy."""
-
-    step_size: float  # α
-    discount: float  # γ
-    bootstrap_sign: float  # −1 under R13 `printed`, else 1
-    reward_scale: float  # from rad² into R3's unit
-    epsilon: float  # the share of random actions
-    random_ties: bool  # R6
-    reset: int  # R7
-    hand_over: int  # R14
-
-
-class State(NamedTuple):
-    """Where the system is."""
-
-    angle: float  # φ [rad]
-    angular_velocity: float  # φ̇ [rad/s]
-    cart_position: float  # x [m]
-    cart_velocity: float  # ẋ [m/s]
 
 
 class Trajectory(NamedTuple):
@@ -54,15 +29,6 @@ class Trajectory(NamedTuple):
     reward: Column  # r_{t+1} [rad²]
     td_error: Column  # δ [rad²]; NaN where nothing was learned
     reset: NDArray[np.bool_]  # whether a_t led to a fall and so to a new start
-
-
-class Open(NamedTuple):
-    """Updates a module left open when it handed over (R14 `own`), by module."""
-
-    step: NDArray[np.int64]  # when it was; NOTHING_OPEN
-    tile: NDArray[np.int64]
-    action: NDArray[np.int64]
-    reward: Array
 
 
 def empty_trajectory(steps: int) -> Trajectory:
@@ -79,21 +45,15 @@ def empty_trajectory(steps: int) -> Trajectory:
     )
 
 
-def nothing_open(modules: int) -> Open:
-    """No update left open."""
-    step, tile, action = (np.full(modules, NOTHING_OPEN, dtype=np.int64) for _ in range(3))
-    return Open(step, tile, action, np.zeros(modules))
-
-
 @compiled
 def learn(
     body: Pendulum,
     task: Task,
-    tiles: Tiles,
+    coding: Any,
     learner: NamedTuple,
+    method: NamedTuple,
     rule: Rule,
     state: State,
-    open_: Open,
     actions: np.random.Generator,
     starts: np.random.Generator,
     trajectory: Trajectory,
@@ -102,84 +62,53 @@ def learn(
 ) -> State:
     """Learn from step ``first`` up to ``last``, recording every step; returns where the system is.
 
-    A run may be learned in several calls: the same trajectory as in one. ``learner``, ``open_``,
+    A run may be learned in several calls: the same trajectory as in one. ``learner``, ``method``,
     the two streams of random numbers and ``trajectory`` are changed in place.
     """
+    td_errors = trajectory.td_error
     # Observe starting state s
-    angle, angular_velocity, cart_position, cart_velocity = state
-    module, tile = locate(tiles, angle, angular_velocity)
+    place = locate(coding, state.angle, state.angular_velocity)
     # Repeat:
     for t in range(first, last):
-        q = values(learner, module, tile)
-        if open_.step[module] != NOTHING_OPEN:
-            td_error = close(learner, rule, open_, module, max(q))
-            trajectory.td_error[open_.step[module]] = td_error / rule.reward_scale
-            open_.step[module] = NOTHING_OPEN
-            q = values(learner, module, tile)
+        before_choice(method, coding, learner, rule, td_errors, place)
 
         # Choose a from s using policy derived from Q
+        q = values(learner, place)
         action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
+        after_choice(method, coding, learner, rule, td_errors, place, action)
 
         # Take action a, observe r, s′
-        acceleration = ACCELERATIONS[action]
-        next_angle, next_angular_velocity = pendulum.step(
-            body, angle, angular_velocity, acceleration
-        )
-        next_cart_position, next_cart_velocity = pendulum.step_cart(
-            body, cart_position, cart_velocity, acceleration
-        )
-        if task.wraps:
-            next_angle = tasks.wrapped(next_angle)
-        fell = tasks.fallen(task, next_angle)
-        observed_angle, observed_velocity = next_angle, next_angular_velocity
+        after = move(body, task, state, ACCELERATIONS[action])
+        seen = after
+        fell = tasks.fallen(task, after.angle)
         if fell:
-            next_angle, next_angular_velocity = tasks.start(task, starts)
-            next_cart_position, next_cart_velocity = 0.0, 0.0
-            if rule.reset == RESET_START:
-                observed_angle, observed_velocity = next_angle, next_angular_velocity
-        reward = tasks.reward(observed_angle if task.rewards_next else angle)
-        next_module, next_tile = locate(tiles, observed_angle, observed_velocity)
+            after = State(*tasks.start(task, starts), 0.0, 0.0)
+            if task.reset == tasks.RESET_START:
+                seen = after
+        next_place = locate(coding, seen.angle, seen.angular_velocity)
+        reward = tasks.reward(seen.angle if task.rewards_next else state.angle)
+        told = reward + tasks.bonus(
+            body, task, rule.discount, state.angle, state.angular_velocity,
+            seen.angle, seen.angular_velocity,
+        )  # fmt: skip
 
-        # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]   (eq. 12; eq. 11 with α = 1)
-        ended = fell and rule.reset == RESET_TERMINAL
-        handed_over = next_module != module
-        if handed_over and rule.hand_over == OWN and not ended:
-            open_.step[module], open_.tile[module] = t, tile
-            open_.action[module], open_.reward[module] = action, reward
-            td_error = nan
-        else:
-            if ended or (handed_over and rule.hand_over == TERMINAL):
-                bootstrap = 0.0
-            else:
-                next_q = values(learner, next_module, next_tile)
-                bootstrap = rule.bootstrap_sign * rule.discount * max(next_q)
-            td_error = rule.reward_scale * reward + bootstrap - q[action]
-            update(learner, module, tile, action, rule.step_size * td_error)
+        # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]: methods/q_learning.py
+        step = Step(
+            t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * told,
+            next_place, fell, fell and task.reset == tasks.RESET_TERMINAL,
+        )  # fmt: skip
+        td_error = learn_from(method, coding, learner, rule, td_errors, step)
 
-        trajectory.angle[t] = angle
-        trajectory.angular_velocity[t] = angular_velocity
-        trajectory.cart_position[t] = cart_position
-        trajectory.cart_velocity[t] = cart_velocity
+        trajectory.angle[t] = state.angle
+        trajectory.angular_velocity[t] = state.angular_velocity
+        trajectory.cart_position[t] = state.cart_position
+        trajectory.cart_velocity[t] = state.cart_velocity
         trajectory.action[t] = action
         trajectory.reward[t] = reward
         trajectory.td_error[t] = td_error / rule.reward_scale
         trajectory.reset[t] = fell
 
         # s ← s′
-        angle, angular_velocity = next_angle, next_angular_velocity
-        cart_position, cart_velocity = next_cart_position, next_cart_velocity
-        module, tile = next_module, next_tile
-        if fell:
-            module, tile = locate(tiles, angle, angular_velocity)
-    return State(angle, angular_velocity, cart_position, cart_velocity)
-
-
-@compiled
-def close(learner: NamedTuple, rule: Rule, open_: Open, module: int, next_value: float) -> float:
-    """Do the update that ``module`` left open, now that it is in control again; returns δ."""
-    tile, action = open_.tile[module], open_.action[module]
-    q = values(learner, module, tile)
-    bootstrap = rule.bootstrap_sign * rule.discount * next_value
-    td_error: float = rule.reward_scale * open_.reward[module] + bootstrap - q[action]
-    update(learner, module, tile, action, rule.step_size * td_error)
-    return td_error
+        state = after
+        place = locate(coding, after.angle, after.angular_velocity) if fell else next_place
+    return state

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import groupby, product
 
-from upswing.config import Study
+from upswing.config import Architecture, Study
 from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
 from upswing.spec import NamedArchitecture, NamedTask, Spec
 
@@ -62,18 +62,35 @@ class Matrix:
                 experiment.tasks, experiment.architectures, experiment.alphas or (None,)
             ):
                 settings, architecture = study.tasks[task], study.architectures[name]
+                epsilon, discount = architecture.epsilon, architecture.discount
                 yield Spec(
                     task=NamedTask(name=task, **dict(settings)),
-                    architecture=NamedArchitecture(name=name, **dict(architecture)),
+                    architecture=NamedArchitecture(
+                        name=name, **{**dict(architecture), "epsilon": None, "discount": None}
+                    ),
                     alpha=alpha,
                     seeds=tuple(sorted(study.seeds)),
-                    epsilon=study.epsilon,
-                    discount=study.discount,
+                    epsilon=study.epsilon if epsilon is None else epsilon,
+                    discount=study.discount if discount is None else discount,
                     readings=study.readings,
                 )
 
 
+def training_code(architecture: Architecture, kind: str) -> str:
+    """The fingerprint of the code that trains an architecture on a kind of task."""
+    return _training_code(
+        *(
+            f"upswing.{room}.{name.replace('-', '_')}"
+            for room, name in (
+                ("tasks", kind),
+                ("codings", architecture.coding),
+                ("learners", architecture.learner),
+                ("methods", architecture.method),
+            )
+        )
+    )
+
+
 @cache
-def training_code(learner: str) -> str:
-    """The fingerprint of the code that trains a learner of the family ``learner``."""
-    return fingerprint("upswing.train", f"upswing.learners.{learner}", packages=COMPUTING_PACKAGES)
+def _training_code(*parts: str) -> str:
+    return fingerprint("upswing.train", *parts, packages=COMPUTING_PACKAGES)

@@ -64,3 +64,13 @@ def step_cart(
     next_position = position + velocity * dt + acceleration * dt * dt
     next_velocity = velocity + acceleration * dt
     return next_position, next_velocity
+
+
+@compiled
+def energy(pendulum: Pendulum, angle: float, angular_velocity: float) -> float:
+    """Kinetic and potential energy [J] on a cart at rest; that of the horizontal at rest is zero."""
+    m, l, g, _, _, up = pendulum  # noqa: E741  the symbols of §4.2
+    _, cos_angle = sine_and_cosine(angle)
+    return (
+        m * l * l / 3 * angular_velocity * angular_velocity / 2 + up * (m * g * l / 2) * cos_angle
+    )

@@ -106,13 +106,13 @@ class Readings(BaseModel):
         """Those readings that can change a run of this learner on this kind of task.
 
         Only they belong to a run's specification, so that a reading of the networks does not
-        rerun a table.
+        rerun a table. A learner beyond the thesis may be touched by any of them.
         """
         circumstances = {None, kind, "modular" if modular else "single"}
         return {
             name: getattr(self, name)
             for name, field in type(self).model_fields.items()
             if isinstance(extra := field.json_schema_extra, dict)
-            and learner in (extra["touches"] or ())  # type: ignore[operator]
+            and (learner in (extra["touches"] or ()) or learner not in EVERYONE)  # type: ignore[operator]
             and extra["only"] in circumstances
         }

@@ -2,25 +2,21 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from upswing import loop
-from upswing.learners import Beginning, Learner, create
+from upswing import codings, learners, loop, methods, tasks
+from upswing.codings import Coding
+from upswing.environment import State
+from upswing.learners import Learner
+from upswing.methods import Rule
 from upswing.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
 from upswing.spec import Spec
-from upswing.tasks import KINDS, Task, start
-from upswing.tiles import Tiles, tiles_for
+from upswing.tasks import Task
 
 REWARD_SCALES = {"half_turn": 4.0, "radians": 1.0, "degrees": (180 / np.pi) ** 2}
 """From rad² into the unit of R3; half_turn reads 90° as π, so an angle is twice its radians."""
-
-RESETS = {
-    "fallen": loop.RESET_FALLEN,
-    "terminal": loop.RESET_TERMINAL,
-    "reset": loop.RESET_START,
-}
-HAND_OVERS = {"owner": loop.OWNER, "own": loop.OWN, "terminal": loop.TERMINAL}
 
 
 def streams(seed: int) -> Iterator[np.random.Generator]:
@@ -38,30 +34,22 @@ class Setting:
 
     body: Pendulum
     task: Task
-    tiles: Tiles
-    rule: loop.Rule
+    coding: Coding
+    rule: Rule
     learner: Learner
-    state: loop.State
-    left_open: loop.Open
+    method: NamedTuple
+    state: State
     actions: np.random.Generator
     starts: np.random.Generator
 
     def advance(self, trajectory: loop.Trajectory, first: int, last: int) -> None:
         """Go on from step ``first`` up to ``last``, recorded in ``trajectory``."""
-        self.state = loop.learn(
-            self.body,
-            self.task,
-            self.tiles,
-            self.learner.stepped,
-            self.rule,
-            self.state,
-            self.left_open,
-            self.actions,
-            self.starts,
-            trajectory,
-            first,
-            last,
-        )
+        own_loop = getattr(self.learner, "advance", None)
+        learn = loop.learn if own_loop is None else own_loop
+        self.state = learn(
+            self.body, self.task, self.coding, self.learner.stepped, self.method, self.rule, self.state,
+            self.actions, self.starts, trajectory, first, last,
+        )  # fmt: skip
 
 
 def body_of(spec: Spec) -> Pendulum:
@@ -73,40 +61,47 @@ def body_of(spec: Spec) -> Pendulum:
 def prepare(spec: Spec, seed: int) -> Setting:
     """A run of ``spec`` before its first step."""
     readings, settings = spec.readings, spec.architecture
+    options = settings.model_dump()
     actions, starts, weights, _ = streams(seed)
-    task = KINDS[spec.task.kind](readings)
-    tiles = tiles_for(spec.task.kind, settings.modular, readings)
+    task = tasks.create(spec.task.kind, readings)._replace(
+        velocity_weight=float(spec.task.velocity_weight), shaping=float(spec.task.shaping)
+    )
+    coding = codings.create(settings.coding, codings.Plan(spec.task.kind, options, readings))
     scale = REWARD_SCALES[readings.reward_unit]
-    learner = create(
+    learner = learners.create(
         settings.learner,
-        Beginning(
-            tiles=tiles,
-            hidden=settings.hidden,
-            behaviour=settings.behaviour or "",
+        learners.Beginning(
+            coding=coding,
+            options=options,
             readings=readings,
             lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
             weights=weights,
         ),
     )
     printed_error = settings.learner == "networks" and readings.error_sign == "printed"
-    rule = loop.Rule(
+    rule = Rule(
         step_size=0.0 if spec.alpha is None else float(spec.alpha),
         discount=float(spec.discount),
         bootstrap_sign=-1.0 if printed_error else 1.0,
         reward_scale=scale,
         epsilon=float(spec.epsilon) if learner.epsilon is None else learner.epsilon,
         random_ties=readings.ties == "random",
-        reset=RESETS[readings.reset],
-        hand_over=HAND_OVERS[readings.hand_over],
     )
     return Setting(
         body=body_of(spec),
         task=task,
-        tiles=tiles,
+        coding=coding,
         rule=rule,
         learner=learner,
-        state=loop.State(*start(task, starts), 0.0, 0.0),
-        left_open=loop.nothing_open(tiles.modules),
+        method=new_method(spec, coding),
+        state=State(*tasks.start(task, starts), 0.0, 0.0),
         actions=actions,
         starts=starts,
     )
+
+
+def new_method(spec: Spec, coding: Coding) -> NamedTuple:
+    """The method of ``spec`` with nothing remembered."""
+    options = spec.architecture.model_dump()
+    design = methods.Design(coding.modules, float(spec.discount), options, spec.readings)
+    return methods.create(spec.architecture.method, design)

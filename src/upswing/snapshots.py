@@ -1,12 +1,14 @@
 """What a learner knows, at some moments of its training."""
 
-from typing import NamedTuple
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Coding, locate
+from upswing.codings.grid import VELOCITY_LIMIT
 from upswing.learners import Learner
-from upswing.tiles import VELOCITY_LIMIT, VELOCITY_PARTS, Tiles, locate
 
 MOMENTS = 40
 """About so many moments, dense at the beginning, where learning is fast."""
@@ -15,7 +17,7 @@ Real = NDArray[np.float64]
 
 
 class Snapshots(NamedTuple):
-    """Values over the grid of tiles, φ by φ̇, as they grew."""
+    """Values over a grid, φ by φ̇, as they grew: that of the tiles, or a fine one."""
 
     steps: NDArray[np.int64]  # before which step: (moments,)
     q: Real  # in the unit of R3: (moments, angle parts, velocity parts, actions)
@@ -31,41 +33,30 @@ def moments(steps: int) -> NDArray[np.int64]:
     return np.unique(np.concatenate([spread, early]).round().astype(np.int64))
 
 
-def unfolded(tiles: Tiles, values: Real) -> Real:
-    """Values (modules, tiles, …) laid out over the whole grid: (angle parts, velocity parts, …)."""
-    modules, indices = _places(tiles)
-    return values[modules, indices]
-
-
-def snapshots(tiles: Tiles, looked: list[tuple[int, Real]]) -> Snapshots:
-    """What was looked at: (step, values (modules, tiles, actions)) of each moment."""
+def snapshots(coding: Coding, looked: list[tuple[int, Real]]) -> Snapshots:
+    """What was looked at: (step, what ``look`` gave) of each moment."""
+    rows, columns, limit = coding.picture
+    owner = np.array([place.module for place in places(coding)]).reshape(rows, columns)
     return Snapshots(
         steps=np.array([step for step, _ in looked]),
-        q=np.stack([unfolded(tiles, values) for _, values in looked]),
-        owner=_places(tiles)[0],
-        angle_limit=tiles.angle_limit,
+        q=np.stack([values for _, values in looked]),
+        owner=owner,
+        angle_limit=limit,
     )
 
 
-def look(learner: Learner) -> Real:
-    """What a learner knows now, (modules, tiles, actions), as a copy."""
-    return learner.action_values().copy()
+def look(learner: Learner, coding: Coding) -> Real:
+    """What a learner knows now: (angle parts, velocity parts, actions) of its coding's picture."""
+    rows, columns, _ = coding.picture
+    return learner.action_values(places(coding)).reshape(rows, columns, -1)
 
 
-def _places(tiles: Tiles) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """(module, tile) at the middle of every part of the grid, each (angle parts, velocity parts)."""
-    angle_width = 2 * tiles.angle_limit / tiles.angle_parts
-    velocity_width = 2 * VELOCITY_LIMIT / VELOCITY_PARTS
-    places = [
-        [
-            locate(
-                tiles,
-                -tiles.angle_limit + (row + 0.5) * angle_width,
-                -VELOCITY_LIMIT + (column + 0.5) * velocity_width,
-            )
-            for column in range(VELOCITY_PARTS)
-        ]
-        for row in range(tiles.angle_parts)
+@cache
+def places(coding: Coding) -> list[Any]:
+    """The places at the middle of every part of a coding's picture, a row of φ after the other."""
+    rows, columns, limit = coding.picture
+    angles = -limit + (np.arange(rows) + 0.5) * 2 * limit / rows
+    velocities = -VELOCITY_LIMIT + (np.arange(columns) + 0.5) * 2 * VELOCITY_LIMIT / columns
+    return [
+        locate(coding, float(angle), float(velocity)) for angle in angles for velocity in velocities
     ]
-    both = np.array(places, dtype=np.int64)
-    return both[..., 0], both[..., 1]

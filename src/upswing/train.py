@@ -75,22 +75,22 @@ def train(spec: Spec, results: Path) -> None:
 
 def _identity(one: Spec) -> str:
     """What a finished run must be of to be used again: its specification and the code that trains it."""
-    return f"{training_code(one.architecture.learner)} {one.canonical()}"
+    return f"{training_code(one.architecture, one.task.kind)} {one.canonical()}"
 
 
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
     """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
     setting = prepare(spec, seed)
     setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
-    seconds, looked = 0.0, [(0, look(setting.learner))]
+    seconds, looked = 0.0, [(0, look(setting.learner, setting.coding))]
     for first, last in pairwise(moments(spec.task.steps).tolist()):
         begin = perf_counter()
         setting.advance(trajectory, first, last)
         seconds += perf_counter() - begin
-        looked.append((last, look(setting.learner)))
+        looked.append((last, look(setting.learner, setting.coding)))
     if spec.alpha is None:
         trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
-    return Run(trajectory, setting, snapshots(setting.tiles, looked), seconds)
+    return Run(trajectory, setting, snapshots(setting.coding, looked), seconds)
 
 
 def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
@@ -104,7 +104,7 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     content: dict[str, Any] = {"spec": spec.canonical(), "run": spec.run(seed)}
     outcome: dict[str, Any] = {
         **measures._asdict(),
-        **evaluate(run.setting, spec.task.kind, seed)._asdict(),
+        **evaluate(run.setting, spec, seed)._asdict(),
         "digest": digest(run.trajectory, kept, windows),
         "seconds": run.seconds,
         "steps_per_second": measures.steps / run.seconds,

@@ -21,7 +21,8 @@ for BLOCK in MATRIX.blocks:
                 block,
             ).canonical(),
             code=lambda wildcards: training_code(
-                STUDY.architectures[wildcards.architecture].learner
+                STUDY.architectures[wildcards.architecture],
+                STUDY.tasks[wildcards.task].kind,
             ),
         shell:
             "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"

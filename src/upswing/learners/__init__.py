@@ -6,28 +6,28 @@ function ``create`` that makes one for a run; the loop needs to know no more. Le
 by name, so that a table never waits for torch.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Coding
 from upswing.compiled import ByType
 from upswing.readings import Readings
-from upswing.tiles import Tiles
 
 Array = NDArray[np.float64]
 Q = tuple[float, float, float]
 """One value for each of the three actions."""
 
 
-def _values(learner: Any, module: int, tile: int) -> Q:
-    """Q(s, a) of the three actions."""
+def _values(learner: Any, place: Any) -> Q:
+    """Q(s, a) of the three actions, of a state in the coding that the learner was made for."""
     raise TypeError(f"{type(learner)} is no learner")
 
 
-def _update(learner: Any, module: int, tile: int, action: int, error: float) -> None:
+def _update(learner: Any, place: Any, action: int, error: float) -> None:
     """Move Q(s, a) by the error signal α·δ (eq. 12)."""
 
 
@@ -43,9 +43,8 @@ update_of = _update_by_type.register
 class Beginning(NamedTuple):
     """What a learner is made from."""
 
-    tiles: Tiles
-    hidden: tuple[int, ...]  # sizes of the hidden layers, input side first; empty for a table
-    behaviour: str  # of a control: "idle" or "random"
+    coding: Coding
+    options: Mapping[str, Any]  # of the architecture, as in the configuration
     readings: Readings
     lowest_q: float  # the smallest discounted return there can be, for a pessimistic first Q
     weights: np.random.Generator  # the stream of the first values or weights
@@ -62,8 +61,8 @@ class Learner(Protocol):
     def learned(self) -> Mapping[str, NDArray[Any]]:
         """What was learned, by name; the names and shapes of the weights file."""
 
-    def action_values(self) -> Array:
-        """Q of every state and action, shape (modules, tiles, actions)."""
+    def action_values(self, places: Sequence[Any]) -> Array:
+        """Q of every action at ``places`` of the coding, shape (places, actions)."""
 
     @property
     def epsilon(self) -> float | None:
@@ -72,5 +71,5 @@ class Learner(Protocol):
 
 def create(name: str, beginning: Beginning) -> Learner:
     """A fresh learner of the family ``name``, the name of a file in this folder."""
-    learner: Learner = import_module(f"upswing.learners.{name}").create(beginning)
+    learner: Learner = import_module(f"upswing.learners.{name.replace('-', '_')}").create(beginning)
     return learner

@@ -1,6 +1,6 @@
 """The two controls: no learning, always the same way of acting (C7)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,20 +17,19 @@ class Control(NamedTuple):
 
 
 @values_of(Control)
-def _values(control: Control, module: int, tile: int) -> Q:
+def _values(control: Control, place: Any) -> Q:
     return control.preference[0], control.preference[1], control.preference[2]
 
 
 @update_of(Control)
-def _update(control: Control, module: int, tile: int, action: int, error: float) -> None:
+def _update(control: Control, place: Any, action: int, error: float) -> None:
     pass
 
 
 class ControlLearner:
     """`idle` never accelerates the cart; `random` takes every action equally often."""
 
-    def __init__(self, behaviour: str, modules: int, tiles: int) -> None:
-        self.shape = (modules, tiles, ACTIONS)
+    def __init__(self, behaviour: str) -> None:
         self.epsilon = {"idle": 0.0, "random": 1.0}[behaviour]
         self.stepped = Control(-np.abs(np.array(ACCELERATIONS)))
 
@@ -39,11 +38,11 @@ class ControlLearner:
         """Nothing is learned; ``preference`` is what the control began and ended with."""
         return {"preference": self.stepped.preference}
 
-    def action_values(self) -> Array:
+    def action_values(self, places: Sequence[Any]) -> Array:
         """The preference, the same in every state."""
-        return np.broadcast_to(self.stepped.preference, self.shape)
+        return np.broadcast_to(self.stepped.preference, (len(places), ACTIONS))
 
 
 def create(beginning: Beginning) -> ControlLearner:
-    """The control named by ``beginning.behaviour``."""
-    return ControlLearner(beginning.behaviour, beginning.tiles.modules, beginning.tiles.tiles)
+    """The control that the option ``behaviour`` names."""
+    return ControlLearner(beginning.options["behaviour"])

@@ -4,7 +4,7 @@ torch owns the networks: architecture, first weights, ``state_dict``, evaluation
 steps the same memory in place, one sample at a time.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from upswing.learners import Array, Beginning
-from upswing.learners.one_hidden import one_hidden
-from upswing.learners.two_hidden import two_hidden
+from upswing.learners.backpropagation.dense import INPUTS, dense, inputs
+from upswing.learners.backpropagation.one_hidden import one_hidden
+from upswing.learners.backpropagation.two_hidden import two_hidden
 from upswing.tasks import ACTIONS
 
 
 class QNetworks(nn.Module):
-    """Modules × actions networks of equal shape: one-hot tiles, logistic hidden units, a linear output.
+    """Modules × actions networks of equal shape: inputs, logistic hidden units, a linear output.
 
     Layer k has ``weights[k]``, shape (modules, actions, outputs, inputs), only the first one
     (modules, actions, inputs, outputs), so that a tile's own weights lie side by side; and, where
@@ -46,7 +47,7 @@ class QNetworks(nn.Module):
         )
 
     def forward(self, module: int, tiles: Tensor) -> Tensor:
-        """Q(s, a) of one-hot ``tiles``, shape (states, tiles), as (states, actions)."""
+        """Q(s, a) of inputs (states, inputs), one-hot tiles for example, as (states, actions)."""
         # (states, tiles) → (actions, states, outputs), layer by layer
         signal = tiles.expand(ACTIONS, *tiles.shape)
         for layer, weights in enumerate(self.weights):
@@ -64,36 +65,49 @@ class NetworksLearner:
 
     epsilon = None
 
-    def __init__(self, networks: QNetworks, learning_rate: float) -> None:
+    def __init__(self, networks: QNetworks, tiled: bool, learning_rate: float) -> None:
         self.networks = networks
         weights = [parameter.detach().numpy() for parameter in networks.weights]
         biases = {
             int(layer): parameter.detach().numpy() for layer, parameter in networks.biases.items()
         }
-        stepped = one_hidden if len(weights) == 2 else two_hidden
-        self.stepped: NamedTuple = stepped(weights, biases, learning_rate)
+        if not tiled:
+            stepped: Callable[..., NamedTuple] = dense
+        else:
+            stepped = one_hidden if len(weights) == 2 else two_hidden
+        self.tiled = tiled
+        self.stepped = stepped(weights, biases, learning_rate)
 
     @property
     def learned(self) -> Mapping[str, NDArray[Any]]:
         """The networks' ``state_dict``."""
         return {name: tensor.numpy() for name, tensor in self.networks.state_dict().items()}
 
-    def action_values(self) -> Array:
-        """Every network at every tile, through torch."""
-        modules, _, tiles, _ = self.networks.weights[0].shape
-        states = torch.eye(tiles, dtype=torch.float64)
+    def action_values(self, places: Sequence[Any]) -> Array:
+        """The networks of a place's module, through torch."""
+        modules, _, told, _ = self.networks.weights[0].shape
+        if self.tiled:
+            states, here = (
+                torch.eye(told, dtype=torch.float64),
+                [place.tiles[0] for place in places],
+            )
+        else:
+            states = torch.tensor([inputs(point) for point in places], dtype=torch.float64)
+            here = list(range(len(places)))
         with torch.no_grad():
             values = torch.stack([self.networks(module, states) for module in range(modules)])
-        return np.asarray(values.numpy())
+        return np.asarray(values.numpy()[[place.module for place in places], here])
 
 
 def create(beginning: Beginning) -> NetworksLearner:
     """Networks with weights and biases uniform in ± R11, drawn in the order of the layers."""
-    tiles, readings = beginning.tiles, beginning.readings
-    networks = QNetworks(tiles.modules, (tiles.tiles, *beginning.hidden), readings.biases)
+    coding, readings = beginning.coding, beginning.readings
+    tiled = coding.tiles > 0
+    sizes = (coding.tiles if tiled else INPUTS, *beginning.options["hidden"])
+    networks = QNetworks(coding.modules, sizes, readings.biases)
     scale = float(readings.initial_weights)
     with torch.no_grad():
         for parameter in networks.parameters():
             draws = beginning.weights.uniform(-1, 1, tuple(parameter.shape))
             parameter.copy_(torch.from_numpy(scale * draws))
-    return NetworksLearner(networks, float(readings.learning_rate))
+    return NetworksLearner(networks, tiled, float(readings.learning_rate))

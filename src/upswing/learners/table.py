@@ -1,11 +1,12 @@
 """Q as a table: one entry for each module, tile and action (§3.1)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Place
 from upswing.learners import Array, Beginning, Q, update_of, values_of
 from upswing.tasks import ACTIONS
 
@@ -17,13 +18,22 @@ class Table(NamedTuple):
 
 
 @values_of(Table)
-def _values(table: Table, module: int, tile: int) -> Q:
-    return table.q[module, tile, 0], table.q[module, tile, 1], table.q[module, tile, 2]
+def _values(table: Table, place: Place) -> Q:
+    q, module, first = table.q, place.module, place.tiles[0]
+    left, none, right = q[module, first, 0], q[module, first, 1], q[module, first, 2]
+    for other in range(1, len(place.tiles)):  # tilings overlap: Q is the sum of a state's tiles
+        tile = place.tiles[other]
+        left += q[module, tile, 0]
+        none += q[module, tile, 1]
+        right += q[module, tile, 2]
+    return left, none, right
 
 
 @update_of(Table)
-def _update(table: Table, module: int, tile: int, action: int, error: float) -> None:
-    table.q[module, tile, action] += error  # Q(s, a) ← Q(s, a) + α·δ, eq. 12
+def _update(table: Table, place: Place, action: int, error: float) -> None:
+    share = error / len(place.tiles)
+    for tile in place.tiles:
+        table.q[place.module, tile, action] += share  # Q(s, a) ← Q(s, a) + α·δ, eq. 12
 
 
 class TableLearner:
@@ -39,19 +49,27 @@ class TableLearner:
         """``q``: (modules, tiles, actions)."""
         return {"q": self.stepped.q}
 
-    def action_values(self) -> Array:
-        """The table itself."""
-        return self.stepped.q
+    def action_values(self, places: Sequence[Place]) -> Array:
+        """The entries of the places, summed over their tiles."""
+        modules = np.array([place.module for place in places])
+        tiles = np.array([place.tiles for place in places])
+        values: Array = self.stepped.q[modules[:, None], tiles].sum(axis=1)
+        return values
 
 
 def create(beginning: Beginning) -> TableLearner:
-    """A table with the first Q of R5: zero, the lowest return, or uniform between the two."""
-    shape = (beginning.tiles.modules, beginning.tiles.tiles, ACTIONS)
+    """A table with the first Q of R5."""
+    return TableLearner(first_table(beginning))
+
+
+def first_table(beginning: Beginning) -> Array:
+    """The first Q of R5, (modules, tiles, actions): zero, the lowest return, or uniform between."""
+    coding, lowest = beginning.coding, beginning.lowest_q
+    shape = (coding.modules, coding.tiles, ACTIONS)
     match beginning.readings.first_q:
         case "zero":
-            q = np.zeros(shape)
+            return np.zeros(shape)
         case "pessimistic":
-            q = np.full(shape, beginning.lowest_q)
+            return np.full(shape, lowest)
         case "random":
-            q = beginning.lowest_q * beginning.weights.random(shape)
-    return TableLearner(q)
+            return lowest * beginning.weights.random(shape)

@@ -6,12 +6,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from upswing.codings.grid import VELOCITY_LIMIT
 from upswing.loop import Trajectory
 from upswing.pendulum import Pendulum
 from upswing.recordings.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.snapshots import Snapshots
 from upswing.tasks import ACCELERATIONS, ACTIONS
-from upswing.tiles import VELOCITY_LIMIT
 
 TRAIL = 24
 """The phase plane shows the last so many drawings, half a second."""

@@ -66,7 +66,7 @@ def outcome(spec: Spec, seed: int, trajectory: Trajectory) -> dict[str, Any]:
         "alpha": spec.alpha,
         "seed": seed,
         **measures._asdict(),
-        **evaluate(setting, spec.task.kind, seed)._asdict(),
+        **evaluate(setting, spec, seed)._asdict(),
         "digest": digest(trajectory, kept, windows),
         "recording": "",
     }

@@ -12,10 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Place
 from upswing.compiled import inlined
 from upswing.learners import Array, Q, update_of, values_of
-from upswing.learners.logistic import logistic
-from upswing.learners.product import product
+from upswing.learners.backpropagation.logistic import logistic
+from upswing.learners.backpropagation.product import product
 from upswing.tasks import ACTIONS
 
 Counter = NDArray[np.int64]
@@ -103,8 +104,8 @@ def forget(kept: Kept, learns_hidden_bias: bool, module: int, action: int, tile:
 
 
 @values_of(OneHidden)
-def _values(net: OneHidden, module: int, tile: int) -> Q:
-    kept = net.kept
+def _values(net: OneHidden, place: Place) -> Q:
+    kept, module, tile = net.kept, place.module, place.tiles[0]
     for action in range(ACTIONS):
         if kept.q_at[module, action, tile] != kept.updates[module, action]:
             activate(kept, net.input_weights, net.hidden_bias, module, action, tile)
@@ -115,7 +116,8 @@ def _values(net: OneHidden, module: int, tile: int) -> Q:
 
 
 @update_of(OneHidden)
-def _update(net: OneHidden, module: int, tile: int, action: int, error: float) -> None:
+def _update(net: OneHidden, place: Place, action: int, error: float) -> None:
+    module, tile = place.module, place.tiles[0]
     activate(net.kept, net.input_weights, net.hidden_bias, module, action, tile)
     w, v = net.input_weights[module, action, tile], net.output_weights[module, action]
     b, h = net.hidden_bias[module, action], net.kept.hidden[module, action, tile]

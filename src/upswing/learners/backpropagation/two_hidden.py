@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.codings import Place
 from upswing.compiled import inlined
 from upswing.learners import Array, Q, update_of, values_of
-from upswing.learners.logistic import logistic
-from upswing.learners.one_hidden import Kept, activate, forget, nothing_kept
-from upswing.learners.product import product
+from upswing.learners.backpropagation.logistic import logistic
+from upswing.learners.backpropagation.one_hidden import Kept, activate, forget, nothing_kept
+from upswing.learners.backpropagation.product import product
 from upswing.tasks import ACTIONS
 
 
@@ -76,15 +77,16 @@ def evaluate(net: TwoHidden, module: int, action: int, tile: int) -> None:
 
 
 @values_of(TwoHidden)
-def _values(net: TwoHidden, module: int, tile: int) -> Q:
-    kept = net.kept
+def _values(net: TwoHidden, place: Place) -> Q:
+    kept, module, tile = net.kept, place.module, place.tiles[0]
     for action in range(ACTIONS):
         evaluate(net, module, action, tile)
     return kept.q[module, 0, tile], kept.q[module, 1, tile], kept.q[module, 2, tile]
 
 
 @update_of(TwoHidden)
-def _update(net: TwoHidden, module: int, tile: int, action: int, error: float) -> None:
+def _update(net: TwoHidden, place: Place, action: int, error: float) -> None:
+    module, tile = place.module, place.tiles[0]
     evaluate(net, module, action, tile)
     w, a = net.input_weights[module, action, tile], net.first_bias[module, action]
     u, b = net.middle_weights[module, action], net.second_bias[module, action]

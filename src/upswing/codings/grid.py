@@ -7,6 +7,7 @@ state, and the tile inside that module.
 from math import floor, pi
 from typing import NamedTuple
 
+from upswing.codings import Place, Plan, locate_in
 from upswing.compiled import compiled
 from upswing.readings import Readings
 from upswing.tasks import HORIZONTAL
@@ -37,6 +38,16 @@ class Tiles(NamedTuple):
         """How many tiles one learner has."""
         return (self.angle_parts // self.modules) * VELOCITY_PARTS
 
+    @property
+    def picture(self) -> tuple[int, int, float]:
+        """One pixel for each tile."""
+        return self.angle_parts, VELOCITY_PARTS, self.angle_limit
+
+
+def create(plan: Plan) -> Tiles:
+    """The grid of the thesis."""
+    return tiles_for(plan.kind, bool(plan.options["modular"]), plan.readings)
+
 
 def tiles_for(kind: str, modular: bool, readings: Readings) -> Tiles:
     """The grid of a task: 4 parts over ±π when balancing, 8 over ±2π for full control (§4.5.1, §4.6.1).
@@ -50,19 +61,19 @@ def tiles_for(kind: str, modular: bool, readings: Readings) -> Tiles:
     return Tiles(parts, limit, round(HORIZONTAL / (2 * limit / parts)), modular)
 
 
-@compiled
-def locate(tiles: Tiles, angle: float, angular_velocity: float) -> tuple[int, int]:
-    """(module, tile) of φ [rad] and φ̇ [rad/s]; a tile includes its lower edge, not its upper."""
+@locate_in(Tiles)
+def _locate(tiles: Tiles, angle: float, angular_velocity: float) -> Place:
+    """A tile includes its lower edge, not its upper."""
     row = part(angle, tiles.angle_limit, tiles.angle_parts)
     column = part(angular_velocity, VELOCITY_LIMIT, VELOCITY_PARTS)
     if not tiles.modular:
-        return 0, row * VELOCITY_PARTS + column
+        return Place(0, (row * VELOCITY_PARTS + column,))
     middle = tiles.angle_parts // 2
     quarter = tiles.angle_parts // 4
     if middle - tiles.horizon <= row < middle + tiles.horizon:
-        return BALANCING_MODULE, (row - quarter) * VELOCITY_PARTS + column
+        return Place(BALANCING_MODULE, ((row - quarter) * VELOCITY_PARTS + column,))
     row = min(row, quarter - 1) if row < middle else max(row - middle, quarter)
-    return UPSWING_MODULE, row * VELOCITY_PARTS + column
+    return Place(UPSWING_MODULE, (row * VELOCITY_PARTS + column,))
 
 
 @compiled
