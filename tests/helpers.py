@@ -46,6 +46,29 @@ def make_spec(
     )
 
 
+def beyond_spec(
+    kind: str = "full-control",
+    alpha: float = 0.1,
+    steps: int = 3_000,
+    epsilon: float = 0.01,
+    discount: float = 0.7,
+    task: dict[str, float] | None = None,
+    readings: dict[str, Any] | None = None,
+    learner: str = "table",
+    **options: Any,
+) -> Spec:
+    """A specification with parts beyond the thesis: options of the architecture by name."""
+    return Spec(
+        task=NamedTask(name=kind, kind=kind, steps=steps, **(task or {})),
+        architecture=NamedArchitecture(name="beyond", learner=learner, **options),
+        alpha=alpha,
+        seeds=(0,),
+        epsilon=epsilon,
+        discount=discount,
+        readings=Readings(**(readings or {})),
+    )
+
+
 def run(spec: Spec, seed: int = 0, pieces: int = 1) -> tuple[Trajectory, dict[str, NDArray[Any]]]:
     """The trajectory of a run and what it learned, learned in so many pieces."""
     trajectory = empty_trajectory(spec.task.steps)

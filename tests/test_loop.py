@@ -92,6 +92,10 @@ np.savez(sys.argv[2], **trajectory._asdict(), **{f"learned.{k}": v for k, v in l
 @pytest.mark.parametrize("architecture", ["table", "modular-networks-5", "networks-20-5", "random"])
 def test_compiled_and_plain_python_are_the_same_to_the_last_bit(architecture, tmp_path):
     spec = make_spec("full-control", architecture, 0.5, steps=1_500, hand_over="own", biases="both")
+    assert_same_uncompiled(spec, tmp_path)
+
+
+def assert_same_uncompiled(spec, tmp_path):
     subprocess.run(
         [sys.executable, "-c", UNCOMPILED, spec.canonical(), str(tmp_path / "plain.npz")],
         env={**os.environ, "NUMBA_DISABLE_JIT": "1"},

@@ -46,7 +46,9 @@ def _learn_from(
     if step.fell:
         # No action follows in a fallen state: R7 says what it is worth, and there is no exploring in it.
         next_value = 0.0 if step.terminal else max(values(learner, step.next_place))
-        td_error = step.reward + rule.discount * next_value - step.q[step.action]
+        # The step before has been learned from since the action was chosen, perhaps in this very tile.
+        q = values(learner, step.place)[step.action]
+        td_error = step.reward + rule.discount * next_value - q
         update(learner, step.place, step.action, rule.step_size * td_error)
         return td_error
     method.step[0], method.action[0], method.reward[0] = step.t, step.action, step.reward
