@@ -58,6 +58,12 @@ readings: install ## Judge every claim under other readings too (half an hour on
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html#robust"
 
+.PHONY: beyond
+beyond: install ## Run what goes beyond the thesis (some 20 minutes on 2 cores), into results/beyond
+	@$(SNAKEMAKE) --configfile config/beyond.yaml
+	@if test -e results/report/index.html; then $(SNAKEMAKE) --configfile config/config.yaml; fi
+	@echo "The chapter is at results/beyond/report/index.html"
+
 .PHONY: bench
 bench: install ## Measure a step against C, numpy and torch, and what the whole study took
 	@$(BIN)/python -m tests.benchmarks.run results

@@ -5,11 +5,18 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
+from upswing.beyond.names import BOUND, CHANGES as CHANGED, CHOSEN, MAPS, SHORTEST
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES, drawable, module_of
-from upswing.fingerprint import fingerprint
-from upswing.matrix import RUN_FILES, Matrix, training_code
+from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
+from upswing.matrix import (
+    RUN_FILES,
+    Matrix,
+    canonical_search,
+    search_code,
+    training_code,
+)
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.study import canonical
@@ -36,8 +43,15 @@ if Path(RESULTS, "study.json").exists() and not any(
         "taken as it is, whatever the code or the configuration has become since. If unsure: make clean"
     )
 MATRIX = Matrix(STUDY)
+# Experiments with a title are changes to the thesis, held against what is possible at all.
+CHANGES = any(experiment.title for experiment in STUDY.experiments)
 # A figure can be drawn when all cells that it shows are in the study.
-DRAWABLE = drawable(MATRIX.cells)
+DRAWABLE = drawable(MATRIX.cells, CHANGES)
+
+
+BEYOND_TABLES = [f"{RESULTS}/{table}" for table in (BOUND, MAPS, CHANGED)]
+if CHANGES and STUDY.search:
+    BEYOND_TABLES += [f"{RESULTS}/{table}" for table in (SHORTEST, CHOSEN)]
 
 
 report: "workflow/report/study.rst"
@@ -67,6 +81,7 @@ rule all:
             f"{RESULTS}/recordings/{{name}}.rrd",
             name=comparison_names(CLAIMS, MATRIX.cells),
         ),
+        BEYOND_TABLES if CHANGES else [],
         expand(f"{RESULTS}/runs/{{run}}.{{kind}}", run=MATRIX.runs, kind=RUN_FILES),
 
 
@@ -75,4 +90,5 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/recordings.smk"
 include: "workflow/rules/readings.smk"
+include: "workflow/rules/beyond.smk"
 include: "workflow/rules/report.smk"

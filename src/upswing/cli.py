@@ -125,6 +125,13 @@ def _parser() -> argparse.ArgumentParser:
             "Write report/viewer: the report's recordings, to open without a server.",
         ),
         ("report", _report, "Write report/index.html."),
+        (
+            "bound",
+            _bound,
+            "Say by dynamic programming how good anything can be (tables/bound.parquet).",
+        ),
+        ("changes", _changes, "Write tables/changes.parquet: what each change to the thesis buys."),
+        ("shortest", _shortest, "Search for what succeeds every time, and how soon."),
     )
     for name, function, summary in verbs_of_results:
         added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
@@ -304,6 +311,24 @@ def _readings(options: argparse.Namespace) -> None:
     sweeps = load_sweeps(options.sweeps, read_study(options.results))
     print(write_readings(options.results, sweeps, load_claims(options.claims)).to_string())
     draw_readings(options.results, sweeps)
+
+
+def _bound(options: argparse.Namespace) -> None:
+    from upswing.bound.table import write_bound
+
+    write_bound(options.results)
+
+
+def _changes(options: argparse.Namespace) -> None:
+    from upswing.beyond.changes import write_changes
+
+    print(write_changes(options.results).to_string())
+
+
+def _shortest(options: argparse.Namespace) -> None:
+    from upswing.beyond.shortest import write_shortest
+
+    print(write_shortest(options.results).to_string())
 
 
 def _study(options: argparse.Namespace) -> None:

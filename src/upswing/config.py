@@ -218,11 +218,11 @@ class Architecture(Strict):
             raise ValueError("a control has nothing to divide into modules")
         if self.learner in OURS and self.learner not in SUITED.get(self.coding, OURS):
             suited = " or ".join(SUITED[self.coding])
+            raise ValueError(f"`coding: {self.coding}` suits {suited}, not {self.learner}")
+        if self.learner == "dqn" and (self.coding, self.method) != ("continuous", "q-learning"):
             raise ValueError(
-                f"`coding: {self.coding}` suits {suited}, not {self.learner}"
+                "a dqn needs `coding: continuous` and has its own method; leave it out"
             )
-        if self.learner == "dqn" and self.coding != "continuous":
-            raise ValueError("a dqn learns from the state itself; it needs `coding: continuous`")
         if len(self.hidden) > 1 and (
             self.learner == "action-input"
             or (self.learner, self.coding) == ("networks", "continuous")
@@ -245,6 +245,38 @@ class Experiment(Strict):
     alphas: Annotated[tuple[Alpha, ...], BeforeValidator(listed), once] = Field(
         default=(), description="Step sizes α in (0, 1]; none for controls."
     )
+    title: str = Field(
+        default="",
+        max_length=100,
+        description="What is changed; its cells then stand in the table of what each change buys.",
+    )
+
+
+class Candidates(Strict):
+    """Some of what is tried in a search: every combination of architectures and step sizes."""
+
+    title: str = Field(
+        min_length=1, max_length=100, description="How far they go beyond the thesis."
+    )
+    architectures: Annotated[tuple[str, ...], BeforeValidator(listed), once] = Field(
+        min_length=1, description="Names of architectures."
+    )
+    alphas: Annotated[tuple[Alpha, ...], BeforeValidator(listed), once] = Field(
+        min_length=1, description="Step sizes α in (0, 1]."
+    )
+
+
+class Search(Strict):
+    """The search for the shortest training after which every run succeeds."""
+
+    task: str = Field(description="Name of a task of full control.")
+    seeds: Seeds = Field(description="Its own seeds: none that a cell is reported on.")
+    lengths: Annotated[tuple[Steps, ...], BeforeValidator(listed), once] = Field(
+        min_length=1, description="Steps of training after which a run is judged."
+    )
+    candidates: Annotated[tuple[Candidates, ...], BeforeValidator(listed)] = Field(
+        min_length=1, description="What is tried, in groups."
+    )
 
 
 class Study(Strict):
@@ -265,6 +297,9 @@ class Study(Strict):
     )
     experiments: Annotated[tuple[Experiment, ...], BeforeValidator(listed)] = Field(
         min_length=1, description="The cells of the matrix."
+    )
+    search: Search | None = Field(
+        default=None, description="A search for what succeeds every time, and how soon."
     )
     readings: Readings = Field(
         default_factory=Readings, description="What the thesis leaves open (R1–R15)."
@@ -299,7 +334,9 @@ def validated(contents: Mapping[str, Mapping[str, Any]]) -> Study:
         study = Study.model_validate(data)
     except ValidationError as error:
         raise BadInput(explained(Study, error, source_of)) from None
-    if problems := list(_contradictions(study, source_of("experiments"))):
+    problems = list(_contradictions(study, source_of("experiments")))
+    problems += _contradictions_of_search(study, source_of("search"))
+    if problems:
         raise BadInput(problems)
     return study
 
@@ -330,6 +367,29 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
                         right = f"duplicate cell: experiments[{earlier}] has it already"
                         written = "none" if alpha is None else f"{alpha:g}"
                         yield problem(source, place, f"{task}/{name}/alpha-{written}", right)
+
+
+def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
+    """What the search says that the rest of the study does not bear out."""
+    search = study.search
+    if search is None:
+        return
+    task = study.tasks.get(search.task)
+    if task is None or task.kind == "balancing":
+        known = [name for name, one in study.tasks.items() if one.kind != "balancing"]
+        right = f"must be a task of full control; {near(search.task, known or ['none'])}"
+        yield problem(source, "search.task", search.task, right)
+    if both := sorted(set(search.seeds) & set(study.seeds)):
+        right = "cells are reported on these seeds; what is chosen must be chosen on others"
+        yield problem(source, "search.seeds", both[:5], right)
+    for number, candidates in enumerate(search.candidates):
+        place = f"search.candidates[{number}].architectures"
+        for name in candidates.architectures:
+            architecture = study.architectures.get(name)
+            if architecture is None:
+                yield problem(source, place, name, f"unknown; {near(name, study.architectures)}")
+            elif architecture.learner == "control":
+                yield problem(source, place, name, "a control learns nothing")
 
 
 class _StrictLoader(yaml.SafeLoader):

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import groupby, product
 
-from upswing.config import Architecture, Study
+from upswing.config import Architecture, Experiment, Study
 from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
-from upswing.spec import NamedArchitecture, NamedTask, Spec
+from upswing.spec import NamedArchitecture, NamedTask, Spec, cell_id
 
 RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
 """The endings of a run's files."""
@@ -55,25 +55,35 @@ class Matrix:
             for seed in spec.seeds:
                 yield spec.run(seed)
 
+    def spec(self, task: str, name: str, alpha: float | None, seeds: tuple[int, ...]) -> Spec:
+        """The specification of a task, an architecture and a step size, for some seeds."""
+        study, architecture = self.study, self.study.architectures[name]
+        epsilon, discount = architecture.epsilon, architecture.discount
+        return Spec(
+            task=NamedTask(name=task, **dict(study.tasks[task])),
+            architecture=NamedArchitecture(
+                name=name, **{**dict(architecture), "epsilon": None, "discount": None}
+            ),
+            alpha=alpha,
+            seeds=tuple(sorted(seeds)),
+            epsilon=study.epsilon if epsilon is None else epsilon,
+            discount=study.discount if discount is None else discount,
+            readings=study.readings,
+        )
+
     def _specs(self) -> Iterator[Spec]:
-        study = self.study
-        for experiment in study.experiments:
-            for task, name, alpha in product(
-                experiment.tasks, experiment.architectures, experiment.alphas or (None,)
-            ):
-                settings, architecture = study.tasks[task], study.architectures[name]
-                epsilon, discount = architecture.epsilon, architecture.discount
-                yield Spec(
-                    task=NamedTask(name=task, **dict(settings)),
-                    architecture=NamedArchitecture(
-                        name=name, **{**dict(architecture), "epsilon": None, "discount": None}
-                    ),
-                    alpha=alpha,
-                    seeds=tuple(sorted(study.seeds)),
-                    epsilon=study.epsilon if epsilon is None else epsilon,
-                    discount=study.discount if discount is None else discount,
-                    readings=study.readings,
-                )
+        for experiment in self.study.experiments:
+            for task, name, alpha in _combinations(experiment):
+                yield self.spec(task, name, alpha, self.study.seeds)
+
+
+def cells_of(experiment: Experiment) -> list[str]:
+    """The ids of an experiment's cells, in order."""
+    return [cell_id(task, name, alpha) for task, name, alpha in _combinations(experiment)]
+
+
+def _combinations(experiment: Experiment) -> Iterator[tuple[str, str, float | None]]:
+    yield from product(experiment.tasks, experiment.architectures, experiment.alphas or (None,))
 
 
 def training_code(architecture: Architecture, kind: str) -> str:
@@ -94,3 +104,31 @@ def training_code(architecture: Architecture, kind: str) -> str:
 @cache
 def _training_code(*parts: str) -> str:
     return fingerprint("upswing.train", *parts, packages=COMPUTING_PACKAGES)
+
+
+def canonical_search(study: Study) -> str:
+    """All that the search of a study depends on besides the code, as one line."""
+    if study.search is None:
+        return ""
+    return "\n".join(
+        [
+            study.search.model_dump_json(),
+            *(Matrix(study).spec(*combination).canonical() for combination in searched(study)),
+        ]
+    )
+
+
+def search_code(study: Study) -> str:
+    """The fingerprint of the code that the search of a study runs."""
+    architectures = {name: study.architectures[name] for _, name, *_ in searched(study)}
+    kinds = {study.tasks[task].kind for task, *_ in searched(study)}
+    used = [training_code(one, kind) for one in architectures.values() for kind in kinds]
+    return " ".join([fingerprint("upswing.beyond.shortest"), *sorted(set(used))])
+
+
+def searched(study: Study) -> Iterator[tuple[str, str, float, tuple[int, ...]]]:
+    """Task, architecture, step size and seeds of all that a study searches through."""
+    if study.search is not None:
+        for candidates in study.search.candidates:
+            for name, alpha in product(candidates.architectures, candidates.alphas):
+                yield study.search.task, name, alpha, study.search.seeds

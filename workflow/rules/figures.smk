@@ -8,7 +8,12 @@ def figure_inputs(wildcards):
         for cell in cells
         for seed in MATRIX.cells[cell].seeds
     ]
-    return expand(
+    tables = [
+        f"{RESULTS}/{table}"
+        for table in FIGURES[wildcards.figure].tables
+        if table not in (SHORTEST, CHOSEN) or STUDY.search
+    ]
+    return tables + expand(
         f"{RESULTS}/runs/{{run}}.{{kind}}",
         run=runs,
         kind=FIGURES[wildcards.figure].files,

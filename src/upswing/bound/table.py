@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from upswing.beyond.names import BOUND, MAPS
 from upswing.bound.grid import Array, Grid, points
 from upswing.bound.keepable import HALF
 from upswing.bound.policies import act
@@ -17,9 +18,6 @@ from upswing.bound.tile_rows import of_tiles
 from upswing.compiled import compiled
 from upswing.pendulum import Pendulum
 from upswing.tables import write_table
-
-BOUND = "tables/bound.parquet"
-MAPS = "tables/bound_maps.parquet"
 
 GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
 """Each twice as fine as the one before; −90°, ±20° and rest are among the points of all of them."""

@@ -12,6 +12,7 @@ from upswing.store.files import written
 NAMES = (
     "overview", "step-sizes", "learning-curves",
     "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11",
+    "bound", "changes",
 )  # fmt: skip
 
 
@@ -24,10 +25,14 @@ FIGURES: dict[str, Declaration] = {name: import_module(module_of(name)).FIGURE f
 """What each figure shows, by its name; in the thesis ``fig05`` is figure 5."""
 
 
-def drawable(cells: Iterable[str]) -> list[str]:
-    """The figures that can be drawn of a study with these cells."""
+def drawable(cells: Iterable[str], changes: bool = False) -> list[str]:
+    """The figures that can be drawn of a study with these cells, perhaps of changes to the thesis."""
     known = set(cells)
-    return [name for name, figure in FIGURES.items() if set(figure.cells) <= known]
+    return [
+        name
+        for name, figure in FIGURES.items()
+        if set(figure.cells) <= known and (changes or not figure.tables)
+    ]
 
 
 def draw(name: str, results: Path) -> None:

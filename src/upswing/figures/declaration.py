@@ -15,3 +15,6 @@ class Declaration(NamedTuple):
         "trajectory.parquet",
         "windows.parquet",
     )  # of each run; without, the table of runs stands for all of them
+    tables: tuple[
+        str, ...
+    ] = ()  # of the chapter beyond the thesis; with them it is drawn there alone

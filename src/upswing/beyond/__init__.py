@@ -1,0 +1,1 @@
+"""Beyond the thesis: what each change to it buys, and what learns full control every time."""

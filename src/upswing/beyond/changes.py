@@ -1,0 +1,86 @@
+"""What each change buys: a row for every cell of an experiment that has a title."""
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing import statistics
+from upswing.beyond.names import BOUND, CHANGES
+from upswing.matrix import cells_of
+from upswing.problems import BadInput
+from upswing.runs import Results
+from upswing.spec import Spec
+from upswing.success import succeeds
+from upswing.tables import write_table
+
+EVERY_TIME = 0.95
+"""The share of upright steps in the last fifth that a learner of full control is asked for."""
+
+
+def write_changes(results: Path) -> pd.DataFrame:
+    """Write and return ``changes.parquet`` of a folder whose bound is known."""
+    found = Results(results)
+    bound = _bound(results)
+    frame = pd.DataFrame(
+        [
+            {"change": experiment.title, **_row(found, found.cells[cell], bound)}
+            for experiment in found.study.experiments
+            if experiment.title
+            for cell in cells_of(experiment)
+        ]
+    )
+    write_table(results / CHANGES, frame)
+    return frame
+
+
+def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any]:
+    runs, kind, horizon = results.cell(spec.cell), spec.task.kind, float(spec.task.steps)
+    success = succeeds(runs, kind)
+    rate = statistics.share(int(success.sum()), len(success))
+    upright = statistics.mean(runs["upright_share"].to_numpy(float))
+    times = [None if pd.isna(step) else float(step) for step in runs["first_stable_step"]]
+    median, earliest, latest = statistics.median_time(times, horizon)
+    return {
+        "cell": spec.cell,
+        "task": spec.task.name,
+        "kind": kind,
+        "steps": spec.task.steps,
+        "architecture": spec.architecture.name,
+        "alpha": spec.alpha,
+        "discount": spec.discount,
+        "epsilon": spec.epsilon,
+        "runs": len(runs),
+        "successes": int(success.sum()),
+        "success": rate.value,
+        "success_low": rate.low,
+        "success_high": rate.high,
+        # Of balancing, runs that did not fall; of full control, runs upright nearly all the time.
+        "sure": int(
+            success.sum() if kind == "balancing" else (runs["upright_share"] >= EVERY_TIME).sum()
+        ),
+        "stable": sum(time is not None for time in times),
+        "stable_step": median,  # infinite where half of the runs never were stable
+        "stable_low": earliest,
+        "stable_high": latest,
+        "nanoseconds": float((runs["seconds"] / runs["steps"]).median() * 1e9),
+        "upright": upright.value,
+        "missing": bound["upright_share"] - upright.value,
+        "missing_low": bound["upright_share"] - upright.high,
+        "missing_high": bound["upright_share"] - upright.low,
+        "cost": -float(runs["mean_reward"].mean()),
+        "median_run": results.three_of(spec.cell).iloc[1]["run"],
+    }
+
+
+def _bound(results: Path) -> dict[str, float]:
+    """What the fastest policy comes to under the study's own conditions, ε = 0.01 included."""
+    path = results / BOUND
+    if not path.exists():
+        raise BadInput([f"{path}: missing; `upswing bound {results}` makes it"])
+    frame = pd.read_parquet(path)
+    rows = frame[(frame["policy"] == "fastest") & frame["quantity"].str.startswith("explored_")]
+    return {
+        str(quantity).removeprefix("explored_"): float(value)
+        for quantity, value in zip(rows["quantity"], rows["value"], strict=True)
+    }

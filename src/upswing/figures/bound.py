@@ -1,0 +1,70 @@
+"""What is possible at all: the fastest swing-up, what can be caught, what the reward asks for."""
+
+from typing import TYPE_CHECKING
+
+from upswing.beyond.names import BOUND, MAPS
+from upswing.figures.declaration import Declaration
+
+if TYPE_CHECKING:
+    from upswing.figures.panels import Drawing
+    from upswing.runs import Results
+
+FIGURE = Declaration(
+    "What is possible at all", "§2.4.2", ("C9", "C15"), files=(), tables=(BOUND, MAPS)
+)
+THESIS, FAR_SIGHTED = "0.7", "0.97"
+
+
+def draw(results: "Results") -> "Drawing":
+    """Maps over φ and φ̇: time to upright with what can be caught, and two optimal policies."""
+    import numpy as np
+    import pandas as pd
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    from upswing.figures import panels
+    from upswing.figures.style import WIDTH, subplots
+
+    maps = pd.read_parquet(results.folder / MAPS)
+    bound = pd.read_parquet(results.folder / BOUND).set_index("quantity")["value"]
+    angles = np.degrees(np.unique(maps["angle"]))
+    speeds = np.unique(maps["angular_velocity"])
+
+    def over(column: str) -> np.ndarray:
+        return maps[column].to_numpy().reshape(len(angles), len(speeds)).T.astype(float)
+
+    figure, (fastest, thesis, far_sighted) = subplots(
+        1, 3, figsize=(WIDTH, 2.7), width_ratios=(1.25, 1, 1), sharey=True
+    )
+    image = fastest.pcolormesh(
+        angles, speeds, over("time_to_upright"), cmap="viridis", rasterized=True
+    )
+    figure.colorbar(image, ax=fastest, label="fastest way to ±20° [s]")
+    fastest.contour(angles, speeds, over("keepable"), levels=[0.5], colors="white", linewidths=1.2)
+    fastest.set_title("Time to upright")
+    fastest.set_ylabel("φ̇ [rad/s]")
+    colours = ("#0072B2", "#DDDDDD", "#D55E00")
+    shades = ListedColormap(colours)
+    for panel, discount in ((thesis, THESIS), (far_sighted, FAR_SIGHTED)):
+        actions = over(f"action_{discount}")
+        panel.pcolormesh(angles, speeds, actions, cmap=shades, vmin=0, vmax=2, rasterized=True)
+        panel.set_title(f"Optimal policy, γ = {discount}")
+    for panel in (fastest, thesis, far_sighted):
+        panel.set(xlabel="φ [°]", xticks=(-180, -90, 0, 90), ylim=(-20, 20))
+        panel.grid(visible=False)
+    names = ("−10 m/s²", "0", "+10 m/s²")
+    figure.legend(
+        handles=[
+            Patch(color=shade, label=name) for shade, name in zip(colours, names, strict=True)
+        ],
+        loc="outside lower right", ncols=3, frameon=False,
+    )  # fmt: skip
+    needed = bound["lowest_discount_from_hanging"].iloc[-1]
+    caption = (
+        "Left: the least time to upright from every state; the white line is the border of the states "
+        "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "
+        f"best for the discounted reward, by value iteration. With the thesis's γ = {THESIS} it pushes "
+        "towards upright whatever the velocity, and what hangs stays hanging; from "
+        f"γ = {needed:.3f} on it swings up from there."
+    )
+    return panels.Drawing(figure, caption, [])

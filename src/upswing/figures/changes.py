@@ -1,0 +1,75 @@
+"""What each change buys: how many runs succeed, and after how many steps."""
+
+from typing import TYPE_CHECKING
+
+from upswing.beyond.names import CHANGES
+from upswing.figures.declaration import Declaration
+
+if TYPE_CHECKING:
+    from upswing.figures.panels import Drawing
+    from upswing.runs import Results
+
+FIGURE = Declaration(
+    "What each change buys", "", ("C8", "C9", "C10", "C12"), files=(), tables=(CHANGES,)
+)
+ROW = 0.15
+"""Height of a cell [inch]."""
+
+
+def draw(results: "Results") -> "Drawing":
+    """A row for each cell of full control, in groups: its share of successes, its steps to stability."""
+    import numpy as np
+    import pandas as pd
+
+    from upswing.figures import panels
+    from upswing.figures.cells import label
+    from upswing.figures.style import WIDTH, subplots
+
+    table = pd.read_parquet(results.folder / CHANGES)
+    table = table[table["kind"] != "balancing"]
+    titles = list(dict.fromkeys(table["change"]))
+    palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#56B4E9", "#777777"]
+    shades = {title: palette[n % len(palette)] for n, title in enumerate(titles)}
+    figure, (success, stable) = subplots(
+        1, 2, figsize=(WIDTH, ROW * (len(table) + 1.4 * len(titles)) + 0.6), sharey=True
+    )
+    labels, places, row = [], [], 0.0
+    for title in titles:
+        success.annotate(
+            title, (0, row), xycoords=("axes fraction", "data"), va="center", weight="bold",
+            color=shades[title],
+        )  # fmt: skip
+        row += 1.1
+        for _, cell in table[table["change"] == title].iterrows():
+            shade = shades[title]
+            success.hlines(
+                row, 100 * cell["success_low"], 100 * cell["success_high"], color=shade,
+                linewidth=2.5, alpha=0.45,
+            )  # fmt: skip
+            success.plot(100 * cell["success"], row, "o", color=shade, markersize=3.5)
+            if np.isfinite(cell["stable_step"]):
+                high = min(cell["stable_high"], cell["steps"])
+                stable.hlines(row, cell["stable_low"], high, color=shade, linewidth=2.5, alpha=0.45)
+                stable.plot(cell["stable_step"], row, "o", color=shade, markersize=3.5)
+            task = (
+                ""
+                if cell["task"] == "full-control"
+                else f"{cell['task'].removeprefix('full-control-')}: "
+            )
+            labels.append(task + label(cell["cell"]))
+            places.append(row)
+            row += 1
+        row += 0.3
+    success.set_yticks(places, labels, fontsize=6)
+    success.set_ylim(row, -0.8)
+    success.set(xlim=(-3, 103), xlabel="runs that succeed [%]")
+    stable.set_xscale("log")
+    stable.set_xlabel("step of the first stable window (median)")
+    for axes in (success, stable):
+        axes.grid(visible=False, axis="y")
+    caption = (
+        "Full control. Left: the share of runs upright for 90 % of their last fifth, with its 95 % interval "
+        "(Wilson). Right: when half of the runs had their first window of 5,000 steps that is 90 % upright, with "
+        "its 95 % interval (Kaplan–Meier); nothing where half of the runs never had one."
+    )
+    return panels.Drawing(figure, caption, list(table["median_run"]))

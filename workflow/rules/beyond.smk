@@ -1,0 +1,50 @@
+# Beyond the thesis: what is possible at all, what each change buys, what succeeds every time.
+
+
+rule bound:
+    output:
+        f"{RESULTS}/{BOUND}",
+        f"{RESULTS}/{MAPS}",
+    log:
+        f"{RESULTS}/logs/bound.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/bound.tsv"
+    params:
+        code=fingerprint("upswing.bound.table", packages=COMPUTING_PACKAGES),
+    shell:
+        "upswing bound {RESULTS:q} > {log:q} 2>&1"
+
+
+rule changes:
+    input:
+        f"{RESULTS}/study.json",
+        f"{RESULTS}/tables/runs.parquet",
+        f"{RESULTS}/{BOUND}",
+    output:
+        f"{RESULTS}/{CHANGED}",
+    log:
+        f"{RESULTS}/logs/changes.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/changes.tsv"
+    params:
+        code=fingerprint("upswing.beyond.changes", packages=["scipy"]),
+    shell:
+        "upswing changes {RESULTS:q} > {log:q} 2>&1"
+
+
+rule shortest:
+    input:
+        # Its content counts, in the params; a new cell of the study changes no search.
+        ancient(f"{RESULTS}/study.json"),
+    output:
+        f"{RESULTS}/{SHORTEST}",
+        f"{RESULTS}/{CHOSEN}",
+    log:
+        f"{RESULTS}/logs/shortest.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/shortest.tsv"
+    params:
+        search=canonical_search(STUDY),
+        code=search_code(STUDY),
+    shell:
+        "upswing shortest {RESULTS:q} > {log:q} 2>&1"
