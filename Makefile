@@ -54,6 +54,7 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 
 .PHONY: readings
 readings: install ## Judge every claim under other readings too (half an hour on 2 cores; goes on where it stopped)
+	@$(SNAKEMAKE) --configfile config/config.yaml -- study
 	@$(SNAKEMAKE) --configfile config/config.yaml -- readings
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html#robust"

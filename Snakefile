@@ -5,7 +5,14 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-from upswing.beyond.names import BOUND, CHANGES as CHANGED, CHOSEN, MAPS, SHORTEST
+from upswing.beyond.names import (
+    BOUND,
+    CHANGES as CHANGED,
+    CHOSEN,
+    FOLDER,
+    MAPS,
+    SHORTEST,
+)
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES, drawable, module_of

@@ -190,7 +190,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 10
+    assert rules == 13
 
 
 def test_logs_and_benchmarks_are_written(study):

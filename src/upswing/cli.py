@@ -131,7 +131,6 @@ def _parser() -> argparse.ArgumentParser:
             "Say by dynamic programming how good anything can be (tables/bound.parquet).",
         ),
         ("changes", _changes, "Write tables/changes.parquet: what each change to the thesis buys."),
-        ("shortest", _shortest, "Search for what succeeds every time, and how soon."),
     )
     for name, function, summary in verbs_of_results:
         added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
@@ -164,6 +163,11 @@ def _parser() -> argparse.ArgumentParser:
     added.set_defaults(verb=_readings, repeatable=True)
 
     added = verb("study", _study, "Keep a study's configuration beside its results.")
+    added.set_defaults(repeatable=True)
+    added.add_argument("study", help="the study in JSON")
+    added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
+
+    added = verb("shortest", _shortest, "Search for what succeeds every time, and how soon.")
     added.set_defaults(repeatable=True)
     added.add_argument("study", help="the study in JSON")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
@@ -327,8 +331,10 @@ def _changes(options: argparse.Namespace) -> None:
 
 def _shortest(options: argparse.Namespace) -> None:
     from upswing.beyond.shortest import write_shortest
+    from upswing.study import parse_study
 
-    print(write_shortest(options.results).to_string())
+    study = parse_study(options.study, "study")
+    print(write_shortest(study, options.results).to_string())
 
 
 def _study(options: argparse.Namespace) -> None:

@@ -20,7 +20,7 @@ def canonical(study: Study) -> str:
 
 def write_study(text: str, results: Path) -> None:
     """Keep the study written in ``text`` (JSON) as that of the folder ``results``."""
-    study = _parse(text, "study")
+    study = parse_study(text, "study")
     with written(results / FILE) as beside:
         beside.write_text(json.dumps(study.model_dump(mode="json"), indent=1) + "\n", "utf-8")
 
@@ -36,10 +36,11 @@ def read_study(results: Path) -> Study:
         raise BadInput(
             [f"{path}: is not text in UTF-8; delete it and run the study again"]
         ) from None
-    return _parse(text, str(path))
+    return parse_study(text, str(path))
 
 
-def _parse(text: str, source: str) -> Study:
+def parse_study(text: str, source: str) -> Study:
+    """The study written in JSON; ``BadInput`` with all its problems otherwise, naming ``source``."""
     try:
         content = json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:

@@ -11,6 +11,14 @@ SWEPT_TABLES = [
 ]
 
 
+CHAPTER = sorted(
+    str(path)
+    for folder in (Path(RESULTS), Path(RESULTS, FOLDER))
+    for name in (CHANGED, BOUND, CHOSEN, "figures/bound.svg", "figures/changes.svg")
+    for path in [folder / name]
+)
+
+
 rule report:
     input:
         f"{RESULTS}/study.json",
@@ -26,6 +34,8 @@ rule report:
         TEMPLATES,
         # Where the sweeps over readings have been run, the page shows them.
         [path for path in SWEPT_TABLES if Path(path).exists()],
+        # Its own chapter beyond the thesis, or that of the folder below, where that has been run.
+        BEYOND_TABLES if CHANGES else [path for path in CHAPTER if Path(path).exists()],
     output:
         report(
             f"{RESULTS}/report/index.html",

@@ -19,19 +19,18 @@ from upswing.config import Search, Study
 from upswing.loop import Trajectory, empty_trajectory
 from upswing.matrix import Matrix
 from upswing.measures import UPRIGHT, last_fifth
+from upswing.problems import BadInput
 from upswing.setting import prepare
 from upswing.spec import Spec
-from upswing.study import read_study
 from upswing.tables import write_table
 
 KEPT = ("title", "architecture", "alpha", "discount", "seeds")
 
 
-def write_shortest(results: Path) -> pd.DataFrame:
+def write_shortest(study: Study, results: Path) -> pd.DataFrame:
     """Try every candidate of the study; writes all that was tried, and returns what was chosen."""
-    study = read_study(results)
     if study.search is None:
-        raise ValueError(f"{results}: this study has no search")
+        raise BadInput(["study: search: missing; there is nothing to search"])
     tried = pd.DataFrame(
         [row for group in range(len(study.search.candidates)) for row in _tried(study, group)]
     )

@@ -59,7 +59,7 @@ def draw(results: "Results") -> "Drawing":
         ],
         loc="outside lower right", ncols=3, frameon=False,
     )  # fmt: skip
-    needed = bound["lowest_discount_from_hanging"].iloc[-1]
+    needed = bound.loc[["lowest_discount_from_hanging"]].iloc[-1]  # of the finest grid
     caption = (
         "Left: the least time to upright from every state; the white line is the border of the states "
         "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "

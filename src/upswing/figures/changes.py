@@ -25,8 +25,8 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures.cells import label
     from upswing.figures.style import WIDTH, subplots
 
-    table = pd.read_parquet(results.folder / CHANGES)
-    table = table[table["kind"] != "balancing"]
+    changes = pd.read_parquet(results.folder / CHANGES)
+    table = changes[changes["kind"] != "balancing"]
     titles = list(dict.fromkeys(table["change"]))
     palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#56B4E9", "#777777"]
     shades = {title: palette[n % len(palette)] for n, title in enumerate(titles)}
@@ -68,8 +68,8 @@ def draw(results: "Results") -> "Drawing":
     for axes in (success, stable):
         axes.grid(visible=False, axis="y")
     caption = (
-        "Full control. Left: the share of runs upright for 90 % of their last fifth, with its 95 % interval "
-        "(Wilson). Right: when half of the runs had their first window of 5,000 steps that is 90 % upright, with "
-        "its 95 % interval (Kaplan–Meier); nothing where half of the runs never had one."
+        "Full control. Left: the share of runs upright for 90 % of their last fifth, with its 95 % "
+        "interval (Wilson). Right: when half of the runs had their first window of 5,000 steps that is "
+        "90 % upright, with its 95 % interval (Kaplan–Meier); nothing where half of them never had one."
     )
-    return panels.Drawing(figure, caption, list(table["median_run"]))
+    return panels.Drawing(figure, caption, list(changes["median_run"]))

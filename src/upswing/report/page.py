@@ -17,6 +17,7 @@ from upswing.pendulum import Pendulum
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.report import words
+from upswing.report.chapter import chapter
 from upswing.report.cost import BENCHMARK, GROWTH, costs, totals
 from upswing.report.scale import strip
 from upswing.store.files import written
@@ -60,6 +61,7 @@ def write_report(results: Path, templates: Path) -> None:
         verdicts=verdicts,
         counts=_counts(verdicts),
         figures={figure["name"]: figure for figure in _figures(results)},
+        beyond=_beyond(results),
         readings=_readings(study.readings),
         swept=_swept(results, study),
         deviations=read_yaml(templates / "deviations.yaml")["deviations"],
@@ -148,6 +150,14 @@ def _figures(results: Path) -> list[Row]:
             page |= {**said, "picture": _picture(place.with_suffix(".svg")), "missing": False}
         pages.append(page)
     return pages
+
+
+def _beyond(results: Path) -> Row:
+    """The chapter beyond the thesis, with its pictures."""
+    found = chapter(results)
+    if found["folder"] is not None:
+        found["figures"] = {figure["name"]: figure for figure in _figures(found["folder"])}
+    return found
 
 
 def _swept(results: Path, study: Study) -> Row:
