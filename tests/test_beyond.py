@@ -18,6 +18,7 @@ from upswing.config import load, validated
 from upswing.loop import empty_trajectory
 from upswing.matrix import Matrix, canonical_search, cells_of
 from upswing.problems import BadInput
+from upswing.readings import Readings
 from upswing.report.chapter import chapter
 from upswing.report.page import write_report
 from upswing.tables import write_table
@@ -259,15 +260,22 @@ def test_the_chapters_own_configuration_searches_and_reports_on_different_seeds(
     assert "tilings" in canonical_search(study)
 
 
-def test_the_chapter_uses_every_part_there_is():
-    """A new learner, coding or method belongs into the chapter, or into the study of the thesis."""
+def test_every_part_there_is_is_used():
+    """A learner, coding or method that no study in ``config/`` uses is tried by nobody."""
     from upswing.config import parts
 
-    studies = [load(ROOT / f"config/{name}.yaml") for name in ("config", "beyond")]
-    used = [architecture for study in studies for architecture in study.architectures.values()]
+    files = [
+        path
+        for path in (ROOT / "config").glob("*.yaml")
+        if "experiments:" in path.read_text("utf-8")
+    ]
+    assert len(files) >= 3
+    used = [architecture for path in files for architecture in load(path).architectures.values()]
     for room, key in (("learners", "learner"), ("codings", "coding"), ("methods", "method")):
         unused = set(parts(room)) - {getattr(one, key) for one in used}
-        assert unused == set(), room
+        assert not unused, (
+            f"name {unused} in config/beyond.yaml, or in a study of your own in config/"
+        )
 
 
 def test_both_configurations_have_the_same_readings():
@@ -275,3 +283,23 @@ def test_both_configurations_have_the_same_readings():
         yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "beyond")
     ]
     assert content[0]["readings"] == content[1]["readings"]
+
+
+def test_a_method_without_a_body_is_refused(monkeypatch):
+    from upswing import methods
+
+    monkeypatch.delitem(methods._learn_from_by_type.bodies, methods_of("sarsa"))
+    with pytest.raises(TypeError, match="no body under @learn_from_of"):
+        methods.create("sarsa", methods.Design(1, 0.7, {}, Readings()))
+
+
+def methods_of(name):
+    from upswing import methods
+
+    return type(methods.create(name, methods.Design(1, 0.7, {}, Readings())))
+
+
+def test_a_kind_of_task_beyond_the_thesis_is_touched_by_every_reading_and_evaluated():
+    touching = Readings().touching("table", "another", modular=False)
+    assert {"wrap", "reset"} <= set(touching)
+    assert "hand_over" not in touching

@@ -15,7 +15,7 @@ STARTS = {
     "balancing": np.radians(np.linspace(-20, 20, 9)),
     "full-control": np.linspace(-np.pi, np.pi, 16, endpoint=False),
 }
-"""The angles it starts from, at rest [rad]."""
+"""The angles it starts from, at rest [rad]; another kind of task has those of full control."""
 
 STEPS = {"balancing": 2_000, "full-control": 4_000}
 """How long each start is followed: 10 s and 20 s [steps]."""
@@ -40,9 +40,10 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
     *_, stream = streams(seed)
     epsilon = 0.0 if setting.learner.epsilon is None else setting.learner.epsilon
     rule = setting.rule._replace(step_size=0.0, epsilon=epsilon)
-    steps, successes, upright = STEPS[kind], 0, 0.0
+    steps, successes, upright = STEPS.get(kind, STEPS["full-control"]), 0, 0.0
     trajectory = loop.empty_trajectory(steps)
-    for angle in STARTS[kind]:
+    angles = STARTS.get(kind, STARTS["full-control"])
+    for angle in angles:
         episode = replace(
             setting,
             rule=rule,
@@ -57,4 +58,4 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
         share = float(np.mean(np.cos(trajectory.angle[first:]) >= np.cos(UPRIGHT)))
         upright += share
         successes += not trajectory.reset.any() if kind == "balancing" else share >= 0.9
-    return Greedy(successes / len(STARTS[kind]), upright / len(STARTS[kind]))
+    return Greedy(successes / len(angles), upright / len(angles))

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchem
 TABLE, NETWORKS = "table", "networks"
 LEARNERS = (TABLE, NETWORKS)
 EVERYONE = (*LEARNERS, "control")
+KINDS = ("balancing", "full-control")
 
 
 def _reading(
@@ -106,7 +107,8 @@ class Readings(BaseModel):
         """Those readings that can change a run of this learner on this kind of task.
 
         Only they belong to a run's specification, so that a reading of the networks does not
-        rerun a table. A learner beyond the thesis may be touched by any of them.
+        rerun a table. A learner or a kind of task beyond the
+        thesis may be touched by any of them.
         """
         circumstances = {None, kind, "modular" if modular else "single"}
         return {
@@ -114,5 +116,5 @@ class Readings(BaseModel):
             for name, field in type(self).model_fields.items()
             if isinstance(extra := field.json_schema_extra, dict)
             and (learner in (extra["touches"] or ()) or learner not in EVERYONE)  # type: ignore[operator]
-            and extra["only"] in circumstances
+            and (extra["only"] in circumstances or (kind not in KINDS and extra["only"] in KINDS))
         }

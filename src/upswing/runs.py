@@ -111,7 +111,7 @@ class Results:
 
     def in_order(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs, the worst first."""
-        order = ORDER_OF_RUNS[self.kind(cell)]
+        order = ORDER_OF_RUNS.get(self.kind(cell), ORDER_OF_RUNS["full-control"])
         return self.cell(cell).sort_values(list(order), ascending=list(order.values()))
 
     def median_run(self, cell: str) -> OneRun:

@@ -1,7 +1,8 @@
 """Codings: what of a state (φ, φ̇) a learner is told (§3.3).
 
-A coding is a named tuple. Its file gives a body to ``locate``, which answers with a place, and has a
-function ``create`` that makes one for a run. Codings are imported by name, as learners are.
+A coding is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
+``locate``, which answers with a place, and has a function ``create`` that makes one for a run. Codings
+are imported by name, as learners are.
 """
 
 from collections.abc import Mapping
@@ -42,7 +43,10 @@ class Coding(Protocol):
 
     @property
     def picture(self) -> tuple[int, int, float]:
-        """Parts of φ, parts of φ̇, and the limit of φ [rad] of a picture of what was learned."""
+        """Parts of φ, parts of φ̇, and the limit of φ [rad] of a picture of what was learned.
+
+        The picture asks ``locate`` at the middle of equal parts, whatever shape the tiles have.
+        """
 
 
 def _locate(coding: Any, angle: float, angular_velocity: float) -> Any:

@@ -1,8 +1,12 @@
 """Methods: what is learned from a step, and when (§2.4, §3.1).
 
-A method is a named tuple of arrays, so that the loop can step it in place. Its file gives a body to
-``learn_from``, to the other two functions where it needs them, and has a function ``create`` that
-makes one for a run. Methods are imported by name, as learners are.
+A method is a named tuple of arrays (empty if nothing is remembered), so that the loop can step it in
+place. Its file gives a body to ``learn_from``, to the other two functions where it needs them, and has a
+function ``create`` that makes one for a run. Methods are imported by name, as learners are.
+
+The readings R13 (``bootstrap_sign``) and R14 (``hand_over``) are about the thesis's own method; others
+need not know them. Of a step that fell and is not terminal, s′ is the fallen state (R7): it has a place,
+and no action is ever taken in it.
 """
 
 from collections.abc import Mapping
@@ -90,4 +94,6 @@ class Design(NamedTuple):
 def create(name: str, design: Design) -> NamedTuple:
     """A method, by the name of its file in this folder, with nothing remembered."""
     method: NamedTuple = import_module(f"upswing.methods.{name.replace('-', '_')}").create(design)
+    if type(method) not in _learn_from_by_type.bodies:
+        raise TypeError(f"method {name}: no body under @learn_from_of({type(method).__name__})")
     return method

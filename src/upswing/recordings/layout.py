@@ -26,7 +26,8 @@ HIDDEN_COLUMNS = ("digest", "dirty", "git_commit", "spec", "task", "seconds", "s
 
 def table_layout(kind: str) -> rrb.TableBlueprint:
     """The catalog's table of the runs of a ``kind`` of task: what a run is, then what came of it."""
-    first = ("architecture", "alpha", "seed", *FIRST_COLUMNS[kind], "first_stable_step")
+    measures = FIRST_COLUMNS.get(kind, FIRST_COLUMNS["full-control"])
+    first = ("architecture", "alpha", "seed", *measures, "first_stable_step")
     rest = ("mean_reward", "steps")
     columns = [rrb.table.Column("recording link", name="recording")]
     columns += [
@@ -37,7 +38,7 @@ def table_layout(kind: str) -> rrb.TableBlueprint:
     hidden += [f"property:RecordingInfo:{name}" for name in ("name", "start_time")]
     columns += [rrb.table.Column(name, visible=False) for name in hidden]
     best_first = rrb.table.SortBy(
-        f"property:run:{FIRST_COLUMNS[kind][0]}",
+        f"property:run:{measures[0]}",
         direction="ascending" if kind == "balancing" else "descending",
     )
     return rrb.TableBlueprint(
