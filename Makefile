@@ -60,7 +60,7 @@ readings: install ## Judge every claim under other readings too (half an hour on
 	@echo "The report is at results/report/index.html#robust"
 
 .PHONY: beyond
-beyond: install ## Run what goes beyond the thesis (some 20 minutes on 2 cores), into results/beyond
+beyond: install ## Run what goes beyond the thesis (half an hour on 2 cores), into results/beyond
 	@$(SNAKEMAKE) --configfile config/beyond.yaml
 	@if test -e results/report/index.html; then $(SNAKEMAKE) --configfile config/config.yaml; fi
 	@echo "The chapter is at results/beyond/report/index.html"

@@ -64,7 +64,7 @@ def draw(results: "Results") -> "Drawing":
         "Left: the least time to upright from every state; the white line is the border of the states "
         "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "
         f"best for the discounted reward, by value iteration. With the thesis's γ = {THESIS} it pushes "
-        "towards upright whatever the velocity, and what hangs stays hanging; from "
+        "towards upright whatever the velocity, and what hangs stays below; from "
         f"γ = {needed:.3f} on it swings up from there."
     )
     return panels.Drawing(figure, caption, [])
