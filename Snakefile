@@ -5,14 +5,8 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-from upswing.beyond.names import (
-    BOUND,
-    CHANGES as CHANGED,
-    CHOSEN,
-    FOLDER,
-    MAPS,
-    SHORTEST,
-)
+from upswing.beyond.names import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
+from upswing.bound.names import BOUND, MAPS
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
 from upswing.figures import FIGURES, drawable, module_of

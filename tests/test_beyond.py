@@ -11,8 +11,9 @@ import yaml
 
 from tests.test_workflow import Study
 from upswing.beyond.changes import EVERY_TIME
-from upswing.beyond.names import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
+from upswing.beyond.names import CHANGES, CHOSEN, SHORTEST
 from upswing.beyond.shortest import chosen, upright_shares
+from upswing.bound.names import BOUND, MAPS
 from upswing.bound.rows import Row
 from upswing.config import load, validated
 from upswing.loop import empty_trajectory

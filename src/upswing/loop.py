@@ -10,9 +10,9 @@ from upswing.codings import locate
 from upswing.compiled import compiled
 from upswing.environment import State, move
 from upswing.learners import values
-from upswing.methods import Rule, Step, after_choice, before_choice, learn_from
+from upswing.methods import Step, after_choice, before_choice, learn_from
 from upswing.pendulum import Pendulum
-from upswing.policy import epsilon_greedy
+from upswing.policy import Rule, epsilon_greedy
 from upswing.tasks import ACCELERATIONS, Task
 
 Column = NDArray[np.float32]

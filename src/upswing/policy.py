@@ -1,8 +1,23 @@
 """Choosing an action: the ε-greedy policy of §3.1.2."""
 
+from typing import NamedTuple
+
 from upswing.compiled import compiled
-from upswing.learners import Q
 from upswing.tasks import ACTIONS
+
+Q = tuple[float, float, float]
+"""One value for each of the three actions."""
+
+
+class Rule(NamedTuple):
+    """The update rule and the policy."""
+
+    step_size: float  # α
+    discount: float  # γ
+    bootstrap_sign: float  # −1 under R13 `printed`, else 1
+    reward_scale: float  # from rad² into R3's unit
+    epsilon: float  # the share of random actions
+    random_ties: bool  # R6
 
 
 @compiled

@@ -10,8 +10,8 @@ from upswing import codings, learners, loop, methods, tasks
 from upswing.codings import Coding
 from upswing.environment import State
 from upswing.learners import Learner
-from upswing.methods import Rule
 from upswing.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.policy import Rule
 from upswing.spec import Spec
 from upswing.tasks import Task
 

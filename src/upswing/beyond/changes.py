@@ -6,7 +6,8 @@ from typing import Any
 import pandas as pd
 
 from upswing import statistics
-from upswing.beyond.names import BOUND, CHANGES
+from upswing.beyond.names import CHANGES
+from upswing.bound.names import BOUND
 from upswing.matrix import cells_of
 from upswing.problems import BadInput
 from upswing.runs import Results

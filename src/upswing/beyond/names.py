@@ -3,8 +3,6 @@
 CHANGES = "tables/changes.parquet"
 SHORTEST = "tables/shortest.parquet"
 CHOSEN = "tables/chosen.parquet"
-BOUND = "tables/bound.parquet"
-MAPS = "tables/bound_maps.parquet"
 
 FOLDER = "beyond"
 """The chapter's own results lie in this folder of the study's."""

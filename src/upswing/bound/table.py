@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from upswing.beyond.names import BOUND, MAPS
 from upswing.bound.grid import Array, Grid, points
 from upswing.bound.keepable import HALF
+from upswing.bound.names import BOUND, MAPS
 from upswing.bound.policies import act
 from upswing.bound.rows import Row, exact, explored_optimal, of_grid, thresholds
 from upswing.bound.solved import Solved, solve

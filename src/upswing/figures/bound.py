@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.beyond.names import BOUND, MAPS
+from upswing.bound.names import BOUND, MAPS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:

@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from upswing.codings import Coding
 from upswing.compiled import ByType
+from upswing.policy import Q
 from upswing.readings import Readings
 
 Array = NDArray[np.float64]
-Q = tuple[float, float, float]
-"""One value for each of the three actions."""
 
 
 def _values(learner: Any, place: Any) -> Q:

@@ -10,8 +10,9 @@ from torch import Tensor, nn
 
 from upswing.codings import Place
 from upswing.compiled import inlined
-from upswing.learners import Array, Beginning, Q, update_of, values_of
+from upswing.learners import Array, Beginning, update_of, values_of
 from upswing.learners.backpropagation.logistic import logistic
+from upswing.policy import Q
 from upswing.tasks import ACTIONS
 
 

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.learners import Array, Beginning, Q, update_of, values_of
+from upswing.learners import Array, Beginning, update_of, values_of
+from upswing.policy import Q
 from upswing.tasks import ACCELERATIONS, ACTIONS
 
 

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.codings import Place
-from upswing.learners import Array, Beginning, Q, update, update_of, values, values_of
+from upswing.learners import Array, Beginning, update, update_of, values, values_of
 from upswing.learners.table import Table, TableLearner, first_table
+from upswing.policy import Q
 
 
 class Decaying(NamedTuple):

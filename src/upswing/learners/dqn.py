@@ -26,11 +26,10 @@ from upswing import tasks
 from upswing.codings import Point
 from upswing.compiled import compiled
 from upswing.environment import State, move
-from upswing.learners import Array, Beginning, Q, values, values_of
+from upswing.learners import Array, Beginning, values, values_of
 from upswing.learners.backpropagation.dense import INPUTS, inputs
-from upswing.methods import Rule
 from upswing.pendulum import Pendulum
-from upswing.policy import epsilon_greedy
+from upswing.policy import Q, Rule, epsilon_greedy
 from upswing.tasks import ACCELERATIONS, ACTIONS, Task
 
 HOLD = 4

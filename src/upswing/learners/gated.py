@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from upswing.codings import Place
 from upswing.compiled import inlined
-from upswing.learners import Array, Beginning, Learner, Q, update, update_of, values, values_of
+from upswing.learners import Array, Beginning, Learner, update, update_of, values, values_of
+from upswing.policy import Q
 
 MODULES = 2
 RATE = 0.1

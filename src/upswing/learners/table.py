@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.codings import Place
-from upswing.learners import Array, Beginning, Q, update_of, values_of
+from upswing.learners import Array, Beginning, update_of, values_of
+from upswing.policy import Q
 from upswing.tasks import ACTIONS
 
 

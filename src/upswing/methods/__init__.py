@@ -15,19 +15,8 @@ from math import nan
 from typing import Any, NamedTuple
 
 from upswing.compiled import ByType
-from upswing.learners import Q
+from upswing.policy import Q, Rule
 from upswing.readings import Readings
-
-
-class Rule(NamedTuple):
-    """The update rule and the policy."""
-
-    step_size: float  # α
-    discount: float  # γ
-    bootstrap_sign: float  # −1 under R13 `printed`, else 1
-    reward_scale: float  # from rad² into R3's unit
-    epsilon: float  # the share of random actions
-    random_ties: bool  # R6
 
 
 class Step(NamedTuple):

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from upswing.codings import locate
 from upswing.compiled import compiled
 from upswing.learners import Array, update, values
-from upswing.methods import Design, Rule, Step, learn_from_of
+from upswing.methods import Design, Step, learn_from_of
+from upswing.policy import Rule
 
 NEGLIGIBLE = 1e-6
 

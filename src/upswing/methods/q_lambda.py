@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from upswing.codings import locate
 from upswing.learners import Array, update, values
-from upswing.methods import Design, Rule, Step, learn_from_of
+from upswing.methods import Design, Step, learn_from_of
+from upswing.policy import Rule
 
 FORGOTTEN = 1e-6
 """The smallest trace that is kept."""

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from upswing.codings import locate
 from upswing.learners import Array, update, values
-from upswing.methods import Design, Rule, Step, before_choice_of, learn_from_of
+from upswing.methods import Design, Step, before_choice_of, learn_from_of
+from upswing.policy import Rule
 
 OWNER, OWN, TERMINAL = 0, 1, 2  # R14
 HAND_OVERS = {"owner": OWNER, "own": OWN, "terminal": TERMINAL}

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from upswing.codings import locate
 from upswing.learners import Array, update, values
-from upswing.methods import Design, Rule, Step, after_choice_of, learn_from_of
+from upswing.methods import Design, Step, after_choice_of, learn_from_of
+from upswing.policy import Rule
 
 NOTHING = -1
 

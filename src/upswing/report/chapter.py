@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.beyond.names import BOUND, CHANGES, CHOSEN, FOLDER
+from upswing.beyond.names import CHANGES, CHOSEN, FOLDER
+from upswing.bound.names import BOUND
 
 Row = dict[str, Any]
 

@@ -13,8 +13,9 @@ from upswing.codings import Point
 from upswing.codings.grid import VELOCITY_LIMIT
 from upswing.compiled import inlined
 from upswing.elementary import sine_and_cosine
-from upswing.learners import Array, Q, update_of, values_of
+from upswing.learners import Array, update_of, values_of
 from upswing.learners.backpropagation.logistic import logistic
+from upswing.policy import Q
 
 INPUTS = 3
 

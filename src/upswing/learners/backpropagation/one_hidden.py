@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from upswing.codings import Place
 from upswing.compiled import inlined
-from upswing.learners import Array, Q, update_of, values_of
+from upswing.learners import Array, update_of, values_of
 from upswing.learners.backpropagation.logistic import logistic
 from upswing.learners.backpropagation.product import product
+from upswing.policy import Q
 from upswing.tasks import ACTIONS
 
 Counter = NDArray[np.int64]

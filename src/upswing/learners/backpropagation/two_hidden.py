@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from upswing.codings import Place
 from upswing.compiled import inlined
-from upswing.learners import Array, Q, update_of, values_of
+from upswing.learners import Array, update_of, values_of
 from upswing.learners.backpropagation.logistic import logistic
 from upswing.learners.backpropagation.one_hidden import Kept, activate, forget, nothing_kept
 from upswing.learners.backpropagation.product import product
+from upswing.policy import Q
 from upswing.tasks import ACTIONS
 
 
