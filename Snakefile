@@ -7,21 +7,19 @@ from snakemake.logging import logger
 
 from upswing.beyond.names import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
 from upswing.bound.names import BOUND, MAPS
+from upswing import jobs
 from upswing.claims import canonical_claims, load_claims
 from upswing.config import from_snakemake
-from upswing.figures import FIGURES, drawable, module_of
-from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
+from upswing.figures import FIGURES, drawable
 from upswing.matrix import (
     RUN_FILES,
     Matrix,
     canonical_search,
-    search_code,
-    training_code,
 )
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.study import canonical
-from upswing.sweeps.plan import content_of, groups, load_sweeps, sweep_code
+from upswing.sweeps.plan import content_of, groups, load_sweeps
 
 if not workflow.configfiles:
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.loop import Trajectory, empty_trajectory
+from upswing.environment import Trajectory, empty_trajectory
 from upswing.readings import Readings
 from upswing.setting import prepare
 from upswing.spec import NamedArchitecture, NamedTask, Spec

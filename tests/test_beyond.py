@@ -16,7 +16,7 @@ from upswing.beyond.shortest import chosen, upright_shares
 from upswing.bound.names import BOUND, MAPS
 from upswing.bound.rows import Row
 from upswing.config import load, validated
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 from upswing.matrix import Matrix, canonical_search, cells_of
 from upswing.problems import BadInput
 from upswing.readings import Readings

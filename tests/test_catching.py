@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 
 from tests.helpers import make_spec, run
 from upswing import measures, pendulum
-from upswing.catching import highest_stoppable_speed, passes_over
-from upswing.loop import empty_trajectory
+from upswing.catching import highest_stoppable_speed, passes
+from upswing.environment import empty_trajectory
 from upswing.pendulum import FROM_HANGING, Pendulum
 from upswing.tasks import HORIZONTAL
 
@@ -42,8 +42,8 @@ def test_without_friction_energy_says_the_same():
 
 def test_faster_passes_and_slower_does_not():
     limit = highest_stoppable_speed(Pendulum())
-    assert passes_over(Pendulum(), limit + 1e-6)
-    assert not passes_over(Pendulum(), limit - 1e-6)
+    assert passes(Pendulum(), limit + 1e-6, HORIZONTAL)
+    assert not passes(Pendulum(), limit - 1e-6, HORIZONTAL)
 
 
 def test_no_other_braking_stops_what_full_braking_does_not():

@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from upswing.codings import Place, Plan, Point, create, locate
@@ -84,13 +84,26 @@ def test_hashing_scatters_neighbours():
 
 
 @given(angle=ANGLES, speed=st.floats(-19, 19))
+@example(angle=3.1415926535897927, speed=0.0)  # (φ + π) / (2π/8) rounds up to 8
+@example(angle=-pi, speed=0.0)
 def test_the_first_tiling_is_the_grid_of_the_thesis(angle, speed):
     (first, *_) = locate(coding("tilings"), angle, speed).tiles
     (tile,) = locate(tiles_for("full-control", False, Readings()), angle, speed).tiles
     assert divmod(first, 21) == divmod(tile, 20)
 
 
-@given(angle=ANGLES, speed=st.floats(-17, 17))
+@pytest.mark.parametrize("name", [name for name in parts("codings") if name != "continuous"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_last_angle_below_the_limit_lies_in_the_last_part_and_the_limit_begins_the_first(
+    name, kind
+):
+    one = coding(name, kind)
+    limit = one.grid.angle_limit if name == "hashed" else one.angle_limit
+    for edge, inside in ((np.nextafter(limit, 0.0), limit - 1e-6), (-limit, -limit + 1e-6)):
+        assert locate(one, float(edge), 0.5) == locate(one, float(inside), 0.5)
+
+
+@given(angle=st.floats(-pi + 1e-9, pi - 1e-9), speed=st.floats(-17, 17))
 def test_states_share_more_tilings_the_nearer_they_are(angle, speed):
     tilings = coding("tilings")
 

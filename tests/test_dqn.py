@@ -13,11 +13,10 @@ from upswing import tasks
 from upswing.codings import Plan, Point
 from upswing.codings import create as create_coding
 from upswing.compiled import compiled
-from upswing.environment import State, move
+from upswing.environment import State, empty_trajectory, move
 from upswing.evaluation import evaluate
 from upswing.learners import Beginning, dqn, values
 from upswing.learners import create as create_learner
-from upswing.loop import empty_trajectory
 from upswing.readings import Readings
 from upswing.setting import prepare, streams
 from upswing.spec import NamedArchitecture, NamedTask, Spec

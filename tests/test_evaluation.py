@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.helpers import make_spec
+from upswing.environment import empty_trajectory
 from upswing.evaluation import STARTS, evaluate
-from upswing.loop import empty_trajectory
 from upswing.setting import prepare
 
 

@@ -8,19 +8,18 @@ from pathlib import Path
 
 import pytest
 
+from upswing import jobs
 from upswing.config import Architecture
 from upswing.fingerprint import fingerprint, reachable
-from upswing.matrix import training_code
 
 TABLES, NETS = Architecture(learner="table"), Architecture(learner="networks", hidden=(5,))
 SOURCE = Path(__file__).parents[1] / "src"
 ASK = """
 from upswing.config import Architecture
-from upswing.matrix import training_code
-from upswing.fingerprint import fingerprint
-print(*(training_code(Architecture(learner=name, hidden=hidden), "balancing")
-        for name, hidden in (("table", ()), ("networks", (5,)))), fingerprint("upswing.figures.fig05"),
-      fingerprint("upswing.report.page"))
+from upswing import jobs
+print(*(jobs.training(Architecture(learner=name, hidden=hidden), "balancing").fingerprint
+        for name, hidden in (("table", ()), ("networks", (5,)))), jobs.figure("fig05").fingerprint,
+      jobs.page(["fig05"]).fingerprint)
 """
 TABLE, NETWORKS, FIGURE, REPORT = range(4)
 
@@ -76,7 +75,8 @@ def changed_by(package, file, old, new):
         ),
         ("learners/table.py", "+= share", "+= 2 * share", {TABLE}),
         ("learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {NETWORKS}),
-        ("figures/fig05.py", "5_000", "4_000", {FIGURE}),
+        ("figures/fig05.py", "5_000", "4_000", {FIGURE, REPORT}),
+        ("figures/fig06.py", "import", "import math\nimport", set()),
         ("report/words.py", '"–"', '"-"', {REPORT}),
     ],
 )
@@ -91,8 +91,13 @@ def test_who_notices_an_edit(package, file, old, new, expected):
 def test_a_learner_is_reached_by_its_own_jobs_alone():
     assert "upswing.learners.networks" not in reachable("upswing.train")
     assert {"upswing.pendulum", "upswing.loop", "upswing.policy"} <= reachable("upswing.train")
-    assert training_code(TABLES, "balancing") != training_code(NETS, "balancing")
-    assert training_code(TABLES, "balancing") != training_code(TABLES, "full-control")
+    table, networks, other = (
+        jobs.training(architecture, kind).fingerprint
+        for architecture, kind in (
+            (TABLES, "balancing"), (NETS, "balancing"), (TABLES, "full-control"),
+        )
+    )  # fmt: skip
+    assert len({table, networks, other}) == 3
 
 
 def test_versions_of_packages_belong_to_it():

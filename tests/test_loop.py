@@ -11,7 +11,7 @@ import pytest
 
 from tests.helpers import ARCHITECTURES, assert_same, make_spec, run
 from tests.transcription import transcribe
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 from upswing.readings import Readings
 from upswing.setting import prepare
 from upswing.train import learn

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from tests.helpers import make_spec, run
 from upswing import measures
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 
 TOO_FAST = 15.0
 

@@ -19,7 +19,7 @@ from tests.helpers import make_spec, run
 from upswing.claims import load_claims
 from upswing.cli import main
 from upswing.codings import locate
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
 from upswing.recordings.browse import catalog, free_port

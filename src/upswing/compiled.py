@@ -36,7 +36,7 @@ def compiled_modules() -> list[str]:
     package = Path(__file__).parent
     parts = [
         f"upswing.{room}.{path.stem}"
-        for room in ("bound", "codings", "learners", "methods")
+        for room in ("bound", "codings", "learners", "methods", "tasks")
         for path in sorted((package / room).glob("[a-z]*.py"))
     ]
     return ["upswing.loop", "upswing.measures", *parts]

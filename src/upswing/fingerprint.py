@@ -43,6 +43,10 @@ def reachable(*entries: str) -> set[str]:
         if module not in found:
             found.add(module)
             waiting.extend(_imports(module))
+            # To import a module is to import the packages it is in; the outermost says only a version.
+            package = module.rpartition(".")[0]
+            if "." in package:
+                waiting.append(package)
     return found
 
 

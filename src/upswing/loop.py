@@ -3,46 +3,15 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from upswing import tasks
 from upswing.codings import locate
 from upswing.compiled import compiled
-from upswing.environment import State, move
+from upswing.environment import State, Trajectory, record, transition
 from upswing.learners import values
 from upswing.methods import Step, after_choice, before_choice, learn_from
 from upswing.pendulum import Pendulum
 from upswing.policy import Rule, epsilon_greedy
-from upswing.tasks import ACCELERATIONS, Task
-
-Column = NDArray[np.float32]
-
-
-class Trajectory(NamedTuple):
-    """A whole run; row t holds s_t, a_t and what followed. Every array has shape (steps,)."""
-
-    angle: Column  # φ of s_t [rad]
-    angular_velocity: Column  # φ̇ of s_t [rad/s]
-    cart_position: Column  # x [m]
-    cart_velocity: Column  # ẋ [m/s]
-    action: NDArray[np.int8]  # index into ACCELERATIONS
-    reward: Column  # r_{t+1} [rad²]
-    td_error: Column  # δ [rad²]; NaN where nothing was learned
-    reset: NDArray[np.bool_]  # whether a_t led to a fall and so to a new start
-
-
-def empty_trajectory(steps: int) -> Trajectory:
-    """Room for a run of ``steps`` steps."""
-    return Trajectory(
-        angle=np.zeros(steps, dtype=np.float32),
-        angular_velocity=np.zeros(steps, dtype=np.float32),
-        cart_position=np.zeros(steps, dtype=np.float32),
-        cart_velocity=np.zeros(steps, dtype=np.float32),
-        action=np.zeros(steps, dtype=np.int8),
-        reward=np.zeros(steps, dtype=np.float32),
-        td_error=np.zeros(steps, dtype=np.float32),
-        reset=np.zeros(steps, dtype=np.bool_),
-    )
+from upswing.tasks import Task
 
 
 @compiled
@@ -78,37 +47,19 @@ def learn(
         after_choice(method, coding, learner, rule, td_errors, place, action)
 
         # Take action a, observe r, s′
-        after = move(body, task, state, ACCELERATIONS[action])
-        seen = after
-        fell = tasks.fallen(task, after.angle)
-        if fell:
-            after = State(*tasks.start(task, starts), 0.0, 0.0)
-            if task.reset == tasks.RESET_START:
-                seen = after
+        taken = transition(body, task, rule.discount, state, action, starts)
+        seen, after = taken.seen, taken.after
         next_place = locate(coding, seen.angle, seen.angular_velocity)
-        reward = tasks.reward(seen.angle if task.rewards_next else state.angle)
-        told = reward + tasks.bonus(
-            body, task, rule.discount, state.angle, state.angular_velocity,
-            seen.angle, seen.angular_velocity,
-        )  # fmt: skip
 
         # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]: methods/q_learning.py
         step = Step(
-            t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * told,
-            next_place, fell, fell and task.reset == tasks.RESET_TERMINAL,
+            t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
+            next_place, taken.fell, taken.terminal,
         )  # fmt: skip
         td_error = learn_from(method, coding, learner, rule, td_errors, step)
-
-        trajectory.angle[t] = state.angle
-        trajectory.angular_velocity[t] = state.angular_velocity
-        trajectory.cart_position[t] = state.cart_position
-        trajectory.cart_velocity[t] = state.cart_velocity
-        trajectory.action[t] = action
-        trajectory.reward[t] = reward
-        trajectory.td_error[t] = td_error / rule.reward_scale
-        trajectory.reset[t] = fell
+        record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
 
         # s ← s′
         state = after
-        place = locate(coding, after.angle, after.angular_velocity) if fell else next_place
+        place = locate(coding, after.angle, after.angular_velocity) if taken.fell else next_place
     return state

@@ -2,11 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import groupby, product
 
-from upswing.config import Architecture, Experiment, Study
-from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
+from upswing.config import Experiment, Study
 from upswing.spec import NamedArchitecture, NamedTask, Spec, cell_id
 
 RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
@@ -86,26 +85,6 @@ def _combinations(experiment: Experiment) -> Iterator[tuple[str, str, float | No
     yield from product(experiment.tasks, experiment.architectures, experiment.alphas or (None,))
 
 
-def training_code(architecture: Architecture, kind: str) -> str:
-    """The fingerprint of the code that trains an architecture on a kind of task."""
-    return _training_code(
-        *(
-            f"upswing.{room}.{name.replace('-', '_')}"
-            for room, name in (
-                ("tasks", kind),
-                ("codings", architecture.coding),
-                ("learners", architecture.learner),
-                ("methods", architecture.method),
-            )
-        )
-    )
-
-
-@cache
-def _training_code(*parts: str) -> str:
-    return fingerprint("upswing.train", *parts, packages=COMPUTING_PACKAGES)
-
-
 def canonical_search(study: Study) -> str:
     """All that the search of a study depends on besides the code, as one line."""
     if study.search is None:
@@ -116,14 +95,6 @@ def canonical_search(study: Study) -> str:
             *(Matrix(study).spec(*combination).canonical() for combination in searched(study)),
         ]
     )
-
-
-def search_code(study: Study) -> str:
-    """The fingerprint of the code that the search of a study runs."""
-    architectures = {name: study.architectures[name] for _, name, *_ in searched(study)}
-    kinds = {study.tasks[task].kind for task, *_ in searched(study)}
-    used = [training_code(one, kind) for one in architectures.values() for kind in kinds]
-    return " ".join([fingerprint("upswing.beyond.shortest"), *sorted(set(used))])
 
 
 def searched(study: Study) -> Iterator[tuple[str, str, float, tuple[int, ...]]]:

@@ -4,14 +4,15 @@ The *last fifth* is the last 20 % of the steps; *upright* is |φ| ≤ 20°, *abo
 |φ| ≤ 90°. A *fall* is a step from above the horizontal to below it: when balancing, a reset.
 """
 
-from math import floor, pi, radians
+from math import copysign, floor, nan, pi, radians
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from upswing.compiled import compiled
-from upswing.loop import Trajectory
+from upswing.environment import Trajectory
+from upswing.success import SUCCESS
 from upswing.tasks import HORIZONTAL
 
 UPRIGHT = radians(20)
@@ -20,11 +21,12 @@ UPRIGHT = radians(20)
 STABLE_STEPS = 5_000
 """A window this long without a fall (balancing) or mostly upright (full control) is stable [steps]."""
 
-STABLE_SHARE = 0.9
-"""The share of a stable window of full control that is upright."""
-
 WINDOWS = 1_000
 """Into how many windows a run is divided, at most."""
+
+NOTHING_LEARNED = copysign(nan, -1.0)
+"""A mean over no steps: the NaN that x86 makes of 0/0. A run's digest holds it, so it is fixed to the
+bit and the same on every processor."""
 
 Real = NDArray[np.float64]
 Count = NDArray[np.int64]
@@ -73,25 +75,27 @@ def measure(trajectory: Trajectory, kind: str, too_fast: float) -> Measures:
     steps = len(trajectory.angle)
     last = last_fifth(steps)
     falls, upright, above, reward = _sums(trajectory, last, steps)
-    first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, STABLE_SHARE)
+    first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, SUCCESS)
     length = steps - last
     below, recovered = _recoveries(trajectory, last, steps)
     swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
     return Measures(
         steps=steps,
-        falls=_sums(trajectory, 0, steps)[0],
-        falls_last_fifth=falls,
-        upright_share=upright / length,
-        above_horizontal_share=above / length,
-        mean_reward=reward / length,
+        falls=int(_sums(trajectory, 0, steps)[0]),
+        falls_last_fifth=int(falls),
+        upright_share=float(upright / length),
+        above_horizontal_share=float(above / length),
+        mean_reward=float(reward / length),
         first_stable_step=None if first_stable < 0 else first_stable,
-        falls_first_5000=_sums(trajectory, 0, min(5_000, steps))[0],
-        falls_2500_to_5000=_sums(trajectory, min(2_500, steps), min(5_000, steps))[0],
-        falls_after_stable=None if first_stable < 0 else _sums(trajectory, first_stable, steps)[0],
+        falls_first_5000=int(_sums(trajectory, 0, min(5_000, steps))[0]),
+        falls_2500_to_5000=int(_sums(trajectory, min(2_500, steps), min(5_000, steps))[0]),
+        falls_after_stable=None
+        if first_stable < 0
+        else int(_sums(trajectory, first_stable, steps)[0]),
         swing_ups=swing_ups,
         swing_ups_last_fifth=_arrivals(trajectory, last, steps, too_fast)[0],
-        arrival_speed=speed / swing_ups if swing_ups else None,
-        too_fast_share=unstoppable / swing_ups if swing_ups else None,
+        arrival_speed=float(speed / swing_ups) if swing_ups else None,
+        too_fast_share=float(unstoppable / swing_ups) if swing_ups else None,
         recovered_share=recovered / below if below else None,
     )
 
@@ -208,7 +212,7 @@ def _fill(trajectory: Trajectory, windows: Windows) -> None:
         windows.lowest_angle[w] = lowest
         windows.highest_angle[w] = highest
         windows.highest_speed[w] = speed
-        windows.mean_td_error[w] = td_errors / learned
+        windows.mean_td_error[w] = td_errors / learned if learned > 0 else NOTHING_LEARNED
 
 
 @compiled

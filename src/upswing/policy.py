@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from upswing.compiled import compiled
+from upswing.compiled import compiled, inlined
 from upswing.tasks import ACTIONS
 
 Q = tuple[float, float, float]
@@ -20,6 +20,18 @@ class Rule(NamedTuple):
     random_ties: bool  # R6
 
 
+@inlined
+def explores(draw: float, epsilon: float) -> bool:
+    """Whether a ``draw`` from [0, 1) says to explore."""
+    return draw < epsilon
+
+
+@inlined
+def explored_action(draw: float, epsilon: float) -> int:
+    """The random action that a ``draw`` below ``epsilon`` says."""
+    return min(int(draw / epsilon * ACTIONS), ACTIONS - 1)
+
+
 @compiled
 def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
     """The action for values ``q`` by one ``draw`` from [0, 1).
@@ -27,8 +39,8 @@ def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
     The one draw decides everything: below ε it says which random action, above it which of several
     equal ones (R6). So every step of every run uses exactly one, and runs of one seed stay paired.
     """
-    if draw < epsilon:
-        return min(int(draw / epsilon * ACTIONS), ACTIONS - 1)
+    if explores(draw, epsilon):
+        return explored_action(draw, epsilon)
     best = 0
     equals = 1
     for action in range(1, ACTIONS):

@@ -8,7 +8,7 @@ import numpy as np
 
 from upswing import codings, learners, loop, methods, tasks
 from upswing.codings import Coding
-from upswing.environment import State
+from upswing.environment import State, Trajectory
 from upswing.learners import Learner
 from upswing.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
 from upswing.policy import Rule
@@ -42,7 +42,7 @@ class Setting:
     actions: np.random.Generator
     starts: np.random.Generator
 
-    def advance(self, trajectory: loop.Trajectory, first: int, last: int) -> None:
+    def advance(self, trajectory: Trajectory, first: int, last: int) -> None:
         """Go on from step ``first`` up to ``last``, recorded in ``trajectory``."""
         own_loop = getattr(self.learner, "advance", None)
         learn = loop.learn if own_loop is None else own_loop

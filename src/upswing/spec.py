@@ -47,6 +47,16 @@ class Spec(Strict):
         """The id of a run, and its path below ``runs`` without an ending."""
         return f"{self.cell}/seed-{seed}"
 
+    def columns(self, seed: int) -> dict[str, Any]:
+        """What a table says of which run it is."""
+        return {
+            "run": self.run(seed),
+            "task": self.task.name,
+            "architecture": self.architecture.name,
+            "alpha": self.alpha,
+            "seed": seed,
+        }
+
     def of_seed(self, seed: int) -> "Spec":
         """The specification of a single run."""
         return self.model_copy(update={"seeds": (seed,)})

@@ -1,9 +1,10 @@
-"""When a run has succeeded: one meaning for the figures and the rule of selection."""
+"""When a run, or a stretch of one, has succeeded: one meaning for tables, figures and policies."""
 
 import pandas as pd
 
 SUCCESS = 0.9
-"""A run of full control succeeds if it is upright for this share of its last fifth."""
+"""Full control succeeds if the pendulum is upright for this share of what is judged: of a run's last
+fifth, of a policy's last steps from a start, of a stable window."""
 
 
 def succeeds(runs: pd.DataFrame, kind: str) -> pd.Series:

@@ -14,6 +14,7 @@ from upswing.spec import parse
 from upswing.store.files import written
 from upswing.store.provenance import metadata
 from upswing.store.trajectory import read_metadata
+from upswing.success import SUCCESS
 
 RUNS = "tables/runs.parquet"
 CELLS = "tables/cells.parquet"
@@ -89,7 +90,7 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
             "runs": len(group),
             "runs_stable": int(group["first_stable_step"].notna().sum()),
             "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
-            "runs_upright": int((group["upright_share"] >= 0.9).sum()),
+            "runs_upright": int((group["upright_share"] >= SUCCESS).sum()),
         }
         times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
         middle = statistics.median_time(times, float(row["steps"]))
@@ -113,11 +114,7 @@ def _row(found: dict[str, Any]) -> dict[str, Any]:
     spec = parse(found["spec"])
     outcome, made = found["outcome"], found["provenance"]
     return {
-        "run": found["run"],
-        "task": spec.task.name,
-        "architecture": spec.architecture.name,
-        "alpha": spec.alpha,
-        "seed": spec.seeds[0],
+        **spec.columns(spec.seeds[0]),
         **outcome,
         "recording": f"runs/{found['run']}.rrd",
         "git_commit": made["git_commit"],

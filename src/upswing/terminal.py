@@ -1,14 +1,17 @@
 """Tables for the terminal."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import pandas as pd
 from rich.console import Console
 from rich.table import Table
 
 from upswing.claims import words_of
-from upswing.compare import Comparison
-from upswing.doctor import Diagnosis
+
+if TYPE_CHECKING:
+    from upswing.compare import Comparison
+    from upswing.doctor import Diagnosis
 
 STYLES = {
     "reproduced": "green",
@@ -40,7 +43,7 @@ def print_verdicts(verdicts: pd.DataFrame) -> None:
     Console().print(table)
 
 
-def print_comparison(comparison: Comparison) -> None:
+def print_comparison(comparison: "Comparison") -> None:
     """Print what differs between two folders."""
     console = Console(highlight=False)
     for claim, before, after in comparison.changed_verdicts:
@@ -65,7 +68,7 @@ def _name(console: Console, runs: Sequence[str]) -> None:
         console.print(f"  … and {len(runs) - SHOWN} more")
 
 
-def print_diagnosis(diagnosis: Diagnosis) -> None:
+def print_diagnosis(diagnosis: "Diagnosis") -> None:
     """What is wrong with a folder of results and what to do, or that nothing is."""
     for finding in diagnosis.findings:
         print(f"{finding.path}: {finding.what}\n    {finding.remedy}")

@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from safetensors.numpy import save
 
-from upswing.catching import highest_stoppable_speed
-from upswing.evaluation import evaluate
-from upswing.loop import Trajectory, empty_trajectory
-from upswing.matrix import training_code
-from upswing.measures import Measures, in_windows, measure
+from upswing import jobs
+from upswing.environment import Trajectory, empty_trajectory
+from upswing.measures import Measures
+from upswing.outcome import outcome_of
 from upswing.recordings.run import write_recording
 from upswing.setting import Setting, prepare
 from upswing.snapshots import Snapshots, look, moments, snapshots
@@ -23,7 +22,7 @@ from upswing.store.checksums import checksum
 from upswing.store.files import written
 from upswing.store.kept import keep, take_back
 from upswing.store.provenance import metadata, provenance
-from upswing.store.trajectory import digest, kept_steps, write_trajectory, write_windows
+from upswing.store.trajectory import write_trajectory, write_windows
 
 
 class RunsFailed(RuntimeError):
@@ -75,7 +74,7 @@ def train(spec: Spec, results: Path) -> None:
 
 def _identity(one: Spec) -> str:
     """What a finished run must be of to be used again: its specification and the code that trains it."""
-    return f"{training_code(one.architecture, one.task.kind)} {one.canonical()}"
+    return f"{jobs.training(one.architecture, one.task.kind).fingerprint} {one.canonical()}"
 
 
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
@@ -95,17 +94,12 @@ def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
 
 def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     """Write the four files of a run; returns its measures."""
-    too_fast = highest_stoppable_speed(run.setting.body)
-    measures = measure(run.trajectory, spec.task.kind, too_fast)
-    windows = in_windows(run.trajectory)
-    kept = kept_steps(run.trajectory, measures.first_stable_step)
+    measures, windows, kept, row = outcome_of(spec, seed, run.setting, run.trajectory)
     learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
     place = results / "runs" / spec.run(seed)
     content: dict[str, Any] = {"spec": spec.canonical(), "run": spec.run(seed)}
     outcome: dict[str, Any] = {
-        **measures._asdict(),
-        **evaluate(run.setting, spec, seed)._asdict(),
-        "digest": digest(run.trajectory, kept, windows),
+        **row,
         "seconds": run.seconds,
         "steps_per_second": measures.steps / run.seconds,
     }
@@ -144,10 +138,7 @@ def _properties(spec: Spec, seed: int, outcome: dict[str, Any]) -> dict[str, Any
     """What the catalog of recordings can be sorted and filtered by."""
     made = provenance()
     return {
-        "task": spec.task.name,
-        "architecture": spec.architecture.name,
-        "alpha": spec.alpha,
-        "seed": seed,
+        **{name: value for name, value in spec.columns(seed).items() if name != "run"},
         **outcome,
         "git_commit": made.git_commit,
         "dirty": made.dirty,

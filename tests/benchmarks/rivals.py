@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 from upswing.setting import prepare
 from upswing.spec import NamedArchitecture, NamedTask, Spec
 

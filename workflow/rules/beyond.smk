@@ -12,7 +12,7 @@ rule bound:
     benchmark:
         f"{RESULTS}/benchmarks/bound.tsv"
     params:
-        code=fingerprint("upswing.bound.table", packages=COMPUTING_PACKAGES),
+        code=jobs.bound().fingerprint,
     shell:
         "upswing bound {RESULTS:q} > {log:q} 2>&1"
 
@@ -29,7 +29,7 @@ rule changes:
     benchmark:
         f"{RESULTS}/benchmarks/changes.tsv"
     params:
-        code=fingerprint("upswing.beyond.changes", packages=["scipy"]),
+        code=jobs.CHANGES.fingerprint,
     shell:
         "upswing changes {RESULTS:q} > {log:q} 2>&1"
 
@@ -46,6 +46,6 @@ rule shortest:
         f"{RESULTS}/benchmarks/shortest.tsv"
     params:
         search=canonical_search(STUDY),
-        code=search_code(STUDY),
+        code=jobs.search(STUDY).fingerprint,
     shell:
         "upswing shortest {STUDY_TEXT:q} --results {RESULTS:q} > {log:q} 2>&1"

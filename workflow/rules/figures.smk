@@ -38,8 +38,6 @@ rule figure:
     benchmark:
         f"{RESULTS}/benchmarks/figure/{{figure}}.tsv"
     params:
-        code=lambda wildcards: fingerprint(
-            module_of(wildcards.figure), packages=["matplotlib"]
-        ),
+        code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
         "upswing figure {wildcards.figure} {RESULTS:q} > {log:q} 2>&1"

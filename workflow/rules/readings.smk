@@ -24,7 +24,7 @@ rule sweep:
             SWEPT[f"{wildcards.sweep}/{wildcards.group}"][1],
             MATRIX.cells,
         ),
-        code=lambda wildcards: sweep_code(SWEEPS[wildcards.sweep], STUDY),
+        code=lambda wildcards: jobs.sweep(SWEEPS[wildcards.sweep], STUDY).fingerprint,
     shell:
         "upswing sweep {wildcards.sweep} {wildcards.group} {RESULTS:q} > {log:q} 2>&1"
 
@@ -49,10 +49,6 @@ rule readings:
         f"{RESULTS}/benchmarks/readings.tsv"
     params:
         claims=canonical_claims(CLAIMS),
-        code=fingerprint(
-            "upswing.sweeps.results",
-            "upswing.figures.readings",
-            packages=["scipy", "matplotlib"],
-        ),
+        code=jobs.READINGS.fingerprint,
     shell:
         "upswing readings {RESULTS:q} > {log:q} 2>&1"

@@ -19,7 +19,7 @@ rule comparisons:
     benchmark:
         f"{RESULTS}/benchmarks/comparisons.tsv"
     params:
-        code=fingerprint("upswing.recordings.comparison", packages=["rerun-sdk"]),
+        code=jobs.COMPARISONS.fingerprint,
     shell:
         "upswing comparisons {RESULTS:q} > {log:q} 2>&1"
 
@@ -39,6 +39,6 @@ rule viewer:
     benchmark:
         f"{RESULTS}/benchmarks/viewer.tsv"
     params:
-        code=fingerprint("upswing.recordings.viewer", packages=["rerun-sdk"]),
+        code=jobs.VIEWER.fingerprint,
     shell:
         "upswing viewer {RESULTS:q} > {log:q} 2>&1"

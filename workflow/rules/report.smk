@@ -50,6 +50,6 @@ rule report:
     benchmark:
         f"{RESULTS}/benchmarks/report.tsv"
     params:
-        code=fingerprint("upswing.report.page"),
+        code=jobs.page(FIGURES).fingerprint,
     shell:
         "upswing report {RESULTS:q} > {log:q} 2>&1"

@@ -26,7 +26,7 @@ rule tables:
     benchmark:
         f"{RESULTS}/benchmarks/tables.tsv"
     params:
-        code=fingerprint("upswing.tables"),
+        code=jobs.TABLES.fingerprint,
     shell:
         "upswing tables {RESULTS:q} > {log:q} 2>&1"
 
@@ -44,6 +44,6 @@ rule verdicts:
         f"{RESULTS}/benchmarks/verdicts.tsv"
     params:
         claims=canonical_claims(CLAIMS),
-        code=fingerprint("upswing.verdicts", packages=["scipy"]),
+        code=jobs.VERDICTS.fingerprint,
     shell:
         "upswing verdicts {RESULTS:q} > {log:q} 2>&1"

@@ -20,9 +20,9 @@ for BLOCK in MATRIX.blocks:
                 f"{wildcards.task}/{wildcards.architecture}/alpha-{wildcards.alpha}",
                 block,
             ).canonical(),
-            code=lambda wildcards: training_code(
+            code=lambda wildcards: jobs.training(
                 STUDY.architectures[wildcards.architecture],
                 STUDY.tasks[wildcards.task].kind,
-            ),
+            ).fingerprint,
         shell:
             "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"

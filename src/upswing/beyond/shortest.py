@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from upswing.beyond.changes import EVERY_TIME
 from upswing.beyond.names import CHOSEN, SHORTEST
 from upswing.config import Search, Study
-from upswing.loop import Trajectory, empty_trajectory
+from upswing.environment import Trajectory, empty_trajectory
 from upswing.matrix import Matrix
 from upswing.measures import UPRIGHT, last_fifth
 from upswing.problems import BadInput

@@ -11,18 +11,17 @@ from upswing.compiled import compiled
 from upswing.evaluation import JUDGED, STARTS, STEPS
 from upswing.measures import UPRIGHT, last_fifth
 from upswing.pendulum import Pendulum
+from upswing.policy import explored_action, explores
 from upswing.readings import Readings
 from upswing.setting import streams
-from upswing.tasks import ACTIONS, HORIZONTAL
+from upswing.success import SUCCESS
+from upswing.tasks import HORIZONTAL
 
 RUN = 1_000_000
 """The length of a run with exploring, as in the study [steps]."""
 
 EPSILON = 0.01
 """The share of random actions, as in the study (§4.5.1)."""
-
-SOLVED = 0.9
-"""So much of its end must be upright for a start to succeed, as in ``evaluation``."""
 
 
 class Followed(NamedTuple):
@@ -66,7 +65,7 @@ def from_starts(policy: Any, body: Pendulum) -> Starts:
         angles = without_exploring(policy, body, float(start), 0.0, STEPS["full-control"])
         shares.append(float((np.abs(angles[-JUDGED - 1 : -1]) <= UPRIGHT).mean()))
         rewards.append(-float((angles[-JUDGED:] ** 2).mean()))
-    succeeded = [share >= SOLVED for share in shares]
+    succeeded = [share >= SUCCESS for share in shares]
     return Starts(
         success_share=float(np.mean(succeeded)),
         from_hanging=succeeded[0],
@@ -98,8 +97,8 @@ def follow(
     angles[0] = angle
     for t in range(1, len(angles)):
         draw = actions.random()
-        if draw < epsilon:
-            action = min(int(draw / epsilon * ACTIONS), ACTIONS - 1)
+        if explores(draw, epsilon):
+            action = explored_action(draw, epsilon)
         else:
             action = act(policy, body, angle, angular_velocity)
         angle, angular_velocity = step(body, angle, angular_velocity, action)

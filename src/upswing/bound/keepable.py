@@ -5,8 +5,8 @@ from math import atan
 
 import numpy as np
 
-from upswing import pendulum
 from upswing.bound.grid import Array, Grid, Successors, between, interpolate, points
+from upswing.catching import highest_speed_short_of
 from upswing.compiled import compiled
 from upswing.pendulum import Pendulum
 from upswing.tasks import ACCELERATIONS, ACTIONS, HORIZONTAL
@@ -19,9 +19,6 @@ TOLERANCE = 1e-6
 
 ROUNDING = 1e-9
 """A point this far beyond the angle still counts as on it [rad]."""
-
-FASTEST = 100.0
-"""No pendulum of this study is faster [rad/s]."""
 
 
 def kept_shares(grid: Grid, ways: Successors, largest_angle: float) -> Array:
@@ -88,20 +85,4 @@ def catchable_speed(body: Pendulum) -> float:
     Whoever passes that angle is lost, so ``catching.highest_stoppable_speed``, which asks whether it
     comes to rest before +90°, is the same number.
     """
-    low, high = 0.0, FASTEST
-    while high - low > 1e-9:
-        middle = (low + high) / 2
-        lost = _passes(body, middle, balanced_angle(body))
-        low, high = (low, middle) if lost else (middle, high)
-    return low
-
-
-@compiled
-def _passes(body: Pendulum, angular_velocity: float, angle_of_no_return: float) -> bool:
-    """Whether full braking from −90° with φ̇ > 0 [rad/s] is still in motion at that angle [rad]."""
-    angle = -HORIZONTAL
-    while angular_velocity > 0:
-        angle, angular_velocity = pendulum.step(body, angle, angular_velocity, ACCELERATIONS[0])
-        if angle > angle_of_no_return:
-            return angular_velocity > 0
-    return False
+    return highest_speed_short_of(body, balanced_angle(body))

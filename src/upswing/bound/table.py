@@ -26,12 +26,12 @@ PIXELS = 200
 """A map has at most so many points along each axis."""
 
 
-def write_bound(results: Path, grids: Sequence[Grid] = GRIDS) -> None:
-    """Solve every grid, follow every policy, and write both tables below ``results``."""
+def write_bound(results: Path, grids: Sequence[Grid] | None = None) -> None:
+    """Solve every grid (``GRIDS``), follow every policy, and write both tables below ``results``."""
     body = Pendulum()
     rows: list[Row] = [*exact(body)]
     solved: Solved | None = None
-    for grid in grids:
+    for grid in grids or GRIDS:
         solved = solve(body, grid, solved)
         rows += [*of_grid(solved), *thresholds(solved)]
     assert solved is not None, "there are grids"  # noqa: S101

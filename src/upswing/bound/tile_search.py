@@ -13,7 +13,7 @@ from upswing.bound.tile_policy import Actions, Score, Visits, score, thesis_tile
 from upswing.codings import locate
 from upswing.codings.grid import VELOCITY_LIMIT, Tiles
 from upswing.compiled import compiled
-from upswing.loop import empty_trajectory
+from upswing.environment import empty_trajectory
 from upswing.pendulum import Pendulum
 from upswing.readings import Readings
 from upswing.setting import prepare

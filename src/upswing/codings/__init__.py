@@ -6,10 +6,10 @@ are imported by name, as learners are.
 """
 
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any, NamedTuple, Protocol
 
 from upswing.compiled import ByType
+from upswing.loading import load
 from upswing.readings import Readings
 
 
@@ -69,5 +69,5 @@ class Plan(NamedTuple):
 
 def create(name: str, plan: Plan) -> Coding:
     """A coding, by the name of its file in this folder."""
-    coding: Coding = import_module(f"upswing.codings.{name.replace('-', '_')}").create(plan)
+    coding: Coding = load("codings", name).create(plan)
     return coding

@@ -7,6 +7,8 @@ states that share all tiles of the thesis are told apart.
 from math import floor
 from typing import NamedTuple
 
+import numpy as np
+
 from upswing.codings import Place, Plan, locate_in
 from upswing.codings.grid import VELOCITY_LIMIT, VELOCITY_PARTS, tiles_for
 from upswing.compiled import compiled
@@ -44,6 +46,9 @@ def tile_in(tilings: Tilings, tiling: int, angle: float, angular_velocity: float
     """The tile of one tiling that holds a state; what lies outside is counted to the edge."""
     parts = tilings.angle_parts
     across = (angle + tilings.angle_limit) / (2 * tilings.angle_limit) * parts
+    if angle < tilings.angle_limit:
+        # Just below the limit the quotient may round up to the limit itself.
+        across = min(across, np.nextafter(float(parts), 0.0))
     up = (angular_velocity + VELOCITY_LIMIT) / (2 * VELOCITY_LIMIT) * VELOCITY_PARTS
     shift_across = (SHIFTS[0] * tiling) % TILINGS / TILINGS
     shift_up = (SHIFTS[1] * tiling) % TILINGS / TILINGS

@@ -1,11 +1,11 @@
 """Figures 5–11 of the thesis and those that sum them up, drawn from our runs: one file of code each."""
 
 import json
-from collections.abc import Iterable
-from importlib import import_module
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from upswing.figures.declaration import Declaration
+from upswing.loading import load
 from upswing.problems import BadInput, near
 from upswing.store.files import written
 
@@ -16,12 +16,23 @@ NAMES = (
 )  # fmt: skip
 
 
-def module_of(name: str) -> str:
-    """The module that draws a figure."""
-    return f"upswing.figures.{name.replace('-', '_')}"
+class _Declarations(Mapping[str, Declaration]):
+    """Each read when it is asked for, so that the job of one figure knows no other's code."""
+
+    def __getitem__(self, name: str) -> Declaration:
+        if name not in NAMES:
+            raise KeyError(name)
+        declared: Declaration = load("figures", name).FIGURE
+        return declared
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+    def __len__(self) -> int:
+        return len(NAMES)
 
 
-FIGURES: dict[str, Declaration] = {name: import_module(module_of(name)).FIGURE for name in NAMES}
+FIGURES: Mapping[str, Declaration] = _Declarations()
 """What each figure shows, by its name; in the thesis ``fig05`` is figure 5."""
 
 
@@ -44,7 +55,7 @@ def draw(name: str, results: Path) -> None:
     from upswing.runs import Results
 
     declared = FIGURES[name]
-    drawing = import_module(module_of(name)).draw(Results(results))
+    drawing = load("figures", name).draw(Results(results))
     place = results / "figures" / name
     save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:

@@ -7,7 +7,6 @@ by name, so that a table never waits for torch.
 """
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from upswing.codings import Coding
 from upswing.compiled import ByType
+from upswing.loading import load
 from upswing.policy import Q
 from upswing.readings import Readings
 
@@ -70,5 +70,5 @@ class Learner(Protocol):
 
 def create(name: str, beginning: Beginning) -> Learner:
     """A fresh learner of the family ``name``, the name of a file in this folder."""
-    learner: Learner = import_module(f"upswing.learners.{name.replace('-', '_')}").create(beginning)
+    learner: Learner = load("learners", name).create(beginning)
     return learner

@@ -22,15 +22,14 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from upswing import tasks
 from upswing.codings import Point
 from upswing.compiled import compiled
-from upswing.environment import State, move
+from upswing.environment import State, record, transition
 from upswing.learners import Array, Beginning, values, values_of
 from upswing.learners.backpropagation.dense import INPUTS, inputs
 from upswing.pendulum import Pendulum
 from upswing.policy import Q, Rule, epsilon_greedy
-from upswing.tasks import ACCELERATIONS, ACTIONS, Task
+from upswing.tasks import ACTIONS, Task
 
 HOLD = 4
 """Steps that a decision is held: 20 ms. With 1 a run swung up too, yet in the end only from 10 of 16
@@ -184,33 +183,14 @@ def act(
         else:
             action = int(trajectory.action[t - 1])
 
-        after = move(body, task, state, ACCELERATIONS[action])
-        seen = after
-        fell = tasks.fallen(task, after.angle)
-        if fell:
-            after = State(*tasks.start(task, starts), 0.0, 0.0)
-            if task.reset == tasks.RESET_START:
-                seen = after
-        received = tasks.reward(seen.angle if task.rewards_next else state.angle)
+        taken = transition(body, task, rule.discount, state, action, starts)
         if remembers:
-            told = received + tasks.bonus(
-                body, task, rule.discount, state.angle, state.angular_velocity,
-                seen.angle, seen.angular_velocity,
-            )  # fmt: skip
-            collect(replay, rule.reward_scale * told, rule.discount)
-            if fell or (t + 1) % HOLD == 0:
-                terminal = fell and task.reset == tasks.RESET_TERMINAL
-                end(replay, action, Point(0, seen.angle, seen.angular_velocity), terminal)
-
-        trajectory.angle[t] = state.angle
-        trajectory.angular_velocity[t] = state.angular_velocity
-        trajectory.cart_position[t] = state.cart_position
-        trajectory.cart_velocity[t] = state.cart_velocity
-        trajectory.action[t] = action
-        trajectory.reward[t] = received
-        trajectory.td_error[t] = nan
-        trajectory.reset[t] = fell
-        state = after
+            collect(replay, rule.reward_scale * taken.told, rule.discount)
+            if taken.fell or (t + 1) % HOLD == 0:
+                seen = Point(0, taken.seen.angle, taken.seen.angular_velocity)
+                end(replay, action, seen, taken.terminal)
+        record(trajectory, t, state, action, taken, nan)
+        state = taken.after
     return state
 
 

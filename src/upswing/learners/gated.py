@@ -7,7 +7,6 @@ zero for both, which is optimistic, and so tries both everywhere.
 """
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from upswing.codings import Place
 from upswing.compiled import inlined
 from upswing.learners import Array, Beginning, Learner, update, update_of, values, values_of
+from upswing.loading import inner_learner, load
 from upswing.policy import Q
 
 MODULES = 2
@@ -87,8 +87,9 @@ class GatedLearner:
 
 def create(beginning: Beginning) -> GatedLearner:
     """Two modules: networks with ``hidden`` layers, or tables where there are none."""
-    kind = "networks" if beginning.options["hidden"] else "table"
+    name = inner_learner("gated", beginning.options["hidden"])
+    assert name is not None, "gated has an inner learner"  # noqa: S101
     tiles = beginning.coding.tiles
     modules = beginning._replace(coding=TwoModules(tiles))  # type: ignore[arg-type]
-    inner = import_module(f"upswing.learners.{kind}").create(modules)
+    inner = load("learners", name).create(modules)
     return GatedLearner(np.zeros((tiles, MODULES)), inner)

@@ -10,11 +10,11 @@ and no action is ever taken in it.
 """
 
 from collections.abc import Mapping
-from importlib import import_module
 from math import nan
 from typing import Any, NamedTuple
 
 from upswing.compiled import ByType
+from upswing.loading import load
 from upswing.policy import Q, Rule
 from upswing.readings import Readings
 
@@ -82,7 +82,7 @@ class Design(NamedTuple):
 
 def create(name: str, design: Design) -> NamedTuple:
     """A method, by the name of its file in this folder, with nothing remembered."""
-    method: NamedTuple = import_module(f"upswing.methods.{name.replace('-', '_')}").create(design)
+    method: NamedTuple = load("methods", name).create(design)
     if type(method) not in _learn_from_by_type.bodies:
         raise TypeError(f"method {name}: no body under @learn_from_of({type(method).__name__})")
     return method

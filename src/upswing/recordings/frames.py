@@ -7,7 +7,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from upswing.loop import Trajectory
+from upswing.environment import Trajectory
 from upswing.measures import Windows
 from upswing.pendulum import Pendulum
 

@@ -7,7 +7,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from upswing.codings.grid import VELOCITY_LIMIT
-from upswing.loop import Trajectory
+from upswing.environment import Trajectory
 from upswing.pendulum import Pendulum
 from upswing.recordings.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.snapshots import Snapshots

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from upswing.loop import Trajectory
+from upswing.environment import Trajectory
 from upswing.measures import Measures, Windows
 from upswing.pendulum import Pendulum
 from upswing.recordings.frames import (

@@ -10,7 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from upswing.loop import Trajectory
+from upswing.environment import Trajectory
 from upswing.measures import Windows
 from upswing.store.files import written
 from upswing.store.provenance import KEY

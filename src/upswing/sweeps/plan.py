@@ -3,7 +3,6 @@
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from functools import cache
 from itertools import combinations, product
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
@@ -11,7 +10,6 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BeforeValidator, Field, RootModel, ValidationError
 
 from upswing.config import Seed, Strict, Study, listed, once, read_yaml
-from upswing.fingerprint import COMPUTING_PACKAGES, fingerprint
 from upswing.matrix import Matrix
 from upswing.problems import BadInput, explained, near
 from upswing.readings import Readings
@@ -136,19 +134,6 @@ def content_of(sweep: Sweep, study: Study, group: Group, cells: Mapping[str, Spe
     ]
     texts += [canonical_of(member) for member in group.members]
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
-
-
-@cache
-def _code(learners: tuple[str, ...]) -> str:
-    modules = (f"upswing.learners.{learner}" for learner in learners)
-    return fingerprint("upswing.sweeps.sweep", *modules, packages=COMPUTING_PACKAGES)
-
-
-def sweep_code(sweep: Sweep, study: Study) -> str:
-    """The fingerprint of the code that runs a sweep's cells."""
-    cells = Matrix(study).cells
-    chosen = (*sweep.cells, *sweep.cells_of_singles)
-    return _code(tuple(sorted({cells[cell].architecture.learner for cell in chosen})))
 
 
 def options_of(reading: str) -> list[Any]:

@@ -6,15 +6,12 @@ from typing import Any
 
 import pandas as pd
 
-from upswing.catching import highest_stoppable_speed
 from upswing.config import Study
-from upswing.evaluation import evaluate
-from upswing.loop import Trajectory, empty_trajectory
-from upswing.measures import in_windows, measure
+from upswing.environment import Trajectory, empty_trajectory
+from upswing.outcome import outcome_of
 from upswing.problems import BadInput, near
 from upswing.setting import prepare
 from upswing.spec import Spec
-from upswing.store.trajectory import digest, kept_steps
 from upswing.sweeps.plan import Sweep, canonical_of, groups, label, specs
 from upswing.tables import NULLABLE, write_table
 
@@ -55,18 +52,5 @@ def outcome(spec: Spec, seed: int, trajectory: Trajectory) -> dict[str, Any]:
     """One row: what a run came to; ``trajectory`` has room for its steps and is written over."""
     setting = prepare(spec, seed)
     setting.advance(trajectory, 0, spec.task.steps)
-    measures = measure(trajectory, spec.task.kind, highest_stoppable_speed(setting.body))
-    windows = in_windows(trajectory)
-    kept = kept_steps(trajectory, measures.first_stable_step)
-    return {
-        "run": spec.run(seed),
-        "cell": spec.cell,
-        "task": spec.task.name,
-        "architecture": spec.architecture.name,
-        "alpha": spec.alpha,
-        "seed": seed,
-        **measures._asdict(),
-        **evaluate(setting, spec, seed)._asdict(),
-        "digest": digest(trajectory, kept, windows),
-        "recording": "",
-    }
+    row = outcome_of(spec, seed, setting, trajectory).row
+    return {"cell": spec.cell, **spec.columns(seed), **row, "recording": ""}

@@ -4,13 +4,13 @@ A task is a file of this folder with a function ``create`` that makes one under 
 imported by name, as learners are.
 """
 
-from importlib import import_module
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
 from upswing.compiled import compiled
+from upswing.loading import load
 from upswing.pendulum import Pendulum, energy
 from upswing.readings import Readings
 
@@ -51,7 +51,7 @@ def start_velocity(readings: Readings) -> float:
 
 def create(kind: str, readings: Readings) -> Task:
     """A task, by the name of its file in this folder."""
-    task: Task = import_module(f"upswing.tasks.{kind.replace('-', '_')}").create(readings)
+    task: Task = load("tasks", kind).create(readings)
     return task
 
 
