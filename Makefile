@@ -11,18 +11,30 @@ CORES ?= all
 SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default --logger rich
 INSTALLED := $(VENV)/.installed
 
+# What is set outside must not choose other packages, nor another encoding.
+unexport PYTHONPATH PYTHONHOME
+export PYTHONNOUSERSITE := 1
+export PYTHONUTF8 := 1
+# A home that cannot be written: caches then lie in .cache here.
+export XDG_CACHE_HOME := $(shell d="$${XDG_CACHE_HOME:-$$HOME/.cache}"; \
+	mkdir -p "$$d" 2>/dev/null && test -w "$$d" && echo "$$d" || echo "$(CURDIR)/.cache")
+
 .PHONY: help
 help: ## Say what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 .PHONY: install
-install: $(INSTALLED) ## Set up the virtual environment .venv from the lock file
+install: writable $(INSTALLED) ## Set up the virtual environment .venv from the lock file
 
-$(INSTALLED): $(VENV)/.locked pyproject.toml
+.PHONY: writable
+writable:
+	@test -w "$(CURDIR)" || { echo "upswing: $(CURDIR): cannot be written, and results, .venv and .snakemake lie in it: copy it to a folder of your own" >&2; exit 1; }
+
+$(INSTALLED): $(VENV)/.locked pyproject.toml | writable
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/.locked: requirements.lock
+$(VENV)/.locked: requirements.lock | writable
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock

@@ -1,9 +1,19 @@
 # The study from configuration to report. Each rule calls one verb of the command `upswing`.
 
+import os
+import shlex
+import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
+
+if find_spec("upswing") is None:
+    raise WorkflowError(
+        f"upswing is not installed beside this snakemake ({sys.executable}): run `make install` and then "
+        ".venv/bin/snakemake"
+    )
 
 from upswing.beyond.names import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
 from upswing.bound.names import BOUND, MAPS
@@ -25,6 +35,10 @@ if not workflow.configfiles:
 
     configfile: "config/config.yaml"
 
+
+# The command `upswing` beside this snakemake, whether or not its folder is on the path; text is UTF-8.
+BESIDE = shlex.quote(os.path.dirname(sys.executable))
+shell.prefix(f"export PATH={BESIDE}:$PATH PYTHONUTF8=1; ")
 
 try:
     STUDY = from_snakemake(workflow.configfiles, config)

@@ -6,6 +6,7 @@ import os
 import shlex
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 from pathlib import Path
 
 from upswing import __version__
@@ -14,6 +15,9 @@ from upswing.problems import BadInput
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed or has changed."""
+    for stream in (sys.stdout, sys.stderr):  # α and φ stand in what is said, whatever the locale
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(encoding="utf-8")
     options = _parser().parse_args(arguments)
     # Jobs run side by side; each computes in one thread.
     os.environ.setdefault("OMP_NUM_THREADS", "1")

@@ -4,7 +4,10 @@ Every function under ``@compiled`` also runs as plain Python with ``NUMBA_DISABL
 how it is debugged, and a test holds the two against each other.
 """
 
+import atexit
 import os
+import shutil
+import tempfile
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -52,14 +55,17 @@ def _choose_cache_directory() -> None:
         return
     key = fingerprint(*compiled_modules(), packages=("numba", "numpy"))
     directory = user_cache_path("upswing") / "compiled" / key
-    if _writable(directory):
-        config.CACHE_DIR = str(directory)
+    if not _writable(directory):
+        # No home, or a read-only one: what is compiled lasts as long as this process.
+        directory = Path(tempfile.mkdtemp(prefix="upswing-"))
+        atexit.register(shutil.rmtree, directory, ignore_errors=True)
+    config.CACHE_DIR = str(directory)
 
 
 def _writable(directory: Path) -> bool:
     try:
         directory.mkdir(parents=True, exist_ok=True)
-    except OSError:  # no home directory, or a read-only one: numba then looks for a place itself
+    except OSError:
         return False
     return os.access(directory, os.W_OK)
 
