@@ -18,8 +18,8 @@ if find_spec("upswing") is None:
 from upswing.beyond.names import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
 from upswing.bound.names import BOUND, MAPS
 from upswing import jobs
-from upswing.claims import canonical_claims, load_claims
-from upswing.config import from_snakemake
+from upswing.check import asked
+from upswing.claims import canonical_claims
 from upswing.figures import FIGURES, drawable
 from upswing.matrix import (
     RUN_FILES,
@@ -29,7 +29,7 @@ from upswing.matrix import (
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.study import canonical
-from upswing.sweeps.plan import content_of, groups, load_sweeps
+from upswing.sweeps.plan import content_of, groups
 
 if not workflow.configfiles:
 
@@ -41,9 +41,12 @@ BESIDE = shlex.quote(os.path.dirname(sys.executable))
 shell.prefix(f"export PATH={BESIDE}:$PATH PYTHONUTF8=1; ")
 
 try:
-    STUDY = from_snakemake(workflow.configfiles, config)
-    CLAIMS = load_claims(Path("config/claims.yaml"))
-    SWEEPS = load_sweeps(Path("config/readings.yaml"), STUDY)
+    STUDY, CLAIMS, SWEEPS = asked(
+        workflow.configfiles,
+        config,
+        claims=Path("config/claims.yaml"),
+        sweeps=Path("config/readings.yaml"),
+    )
 except BadInput as error:
     raise WorkflowError(str(error)) from None
 
@@ -56,6 +59,10 @@ if Path(RESULTS, "study.json").exists() and not any(
         "taken as it is, whatever the code or the configuration has become since. If unsure: make clean"
     )
 MATRIX = Matrix(STUDY)
+# Params get these from functions: in a text of its own Snakemake would take `{seed}` for a wildcard.
+STUDY_TEXT = canonical(STUDY)
+CLAIMS_TEXT = canonical_claims(CLAIMS)
+SEARCH_TEXT = canonical_search(STUDY)
 # Experiments with a title are changes to the thesis, held against what is possible at all.
 CHANGES = any(experiment.title for experiment in STUDY.experiments)
 # A figure can be drawn when all cells that it shows are in the study.

@@ -129,10 +129,20 @@ def test_a_claim_that_is_false_is_not_reproduced(tmp_path, monkeypatch, claim):
         ({"cells": [ONE, OTHER]}, "share compares 1 to 1 cells, not 2"),
         ({"kind": "shares"}, "did you mean 'share"),
         ({"becuase": "…"}, "unknown key: did you mean 'because'?"),
+        ({"where": {"fals": {"at_least": 1}}}, "no measure of a run; did you mean 'falls'?"),
+        ({"where": {"falls": {}}}, "write `at_least`, `at_most` or `below`"),
+        ({"at_least": 7}, "the thresholds of share lie between 0 and 1"),
+        ({"cells": ["balancing/table/alpha-0.10"]}, "α is written shortest: alpha-0.1"),
+        ({"cells": ["../../table/alpha-1"]}, "a cell is task/architecture/alpha-α"),
+        ({"cells": [], "each": [ONE], "each_pair": [[ONE, OTHER]]}, "write one of `cells`"),
+        ({"only_if": {"tiles": "first"}}, "tiles: no such reading"),
+        ({"only_if": {"ties": "last"}}, "last: no such option; there are random, first"),
+        ({"cells": {}}, "must be a list"),
+        ({"partly": "0.5"}, "this is text, not a number; write 0.5"),
     ],
 )
 def test_a_badly_written_claim_is_explained(tmp_path, change, expected):
-    good = {"says": "…", "because": "…", "kind": "share", "cells": [ONE], "where": {"x": {"at_least": 1}}, **FROM}  # fmt: skip
+    good = {"says": "…", "because": "…", "kind": "share", "cells": [ONE], "where": {"falls": {"at_least": 1}}, **FROM}  # fmt: skip
     path = tmp_path / "claims.yaml"
     claim = {
         "statement": "…",

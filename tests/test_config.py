@@ -10,12 +10,14 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from upswing.config import from_snakemake, load, read_yaml, schema, validated
+from upswing.config import from_snakemake, load, schema, validated
 from upswing.keys import reference
 from upswing.matrix import Matrix
+from upswing.names import alpha_text
 from upswing.problems import BadInput
 from upswing.readings import Readings
-from upswing.spec import alpha_text, parse
+from upswing.spec import parse
+from upswing.yaml_file import read_yaml
 
 ROOT = Path(__file__).parents[1]
 STUDY = yaml.safe_load((ROOT / "config/config.yaml").read_text("utf-8"))

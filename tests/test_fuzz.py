@@ -12,15 +12,20 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.helpers import make_spec
+from upswing.claims import load_claims
 from upswing.cli import main
-from upswing.config import load, read_yaml, validated
+from upswing.config import load, validated
 from upswing.matrix import Matrix
+from upswing.measured import MEASURES
 from upswing.problems import BadInput
 from upswing.spec import parse
+from upswing.sweeps.plan import groups, load_sweeps
+from upswing.yaml_file import read_yaml
 
 MANY = settings(
     max_examples=1_000, deadline=2_000, suppress_health_check=list(HealthCheck), derandomize=True
 )
+SOME = settings(MANY, max_examples=500)
 FEW = settings(MANY, max_examples=200)
 VALID = read_yaml(Path("config/config.yaml"))
 SPEC = json.loads(make_spec("full-control", "modular-networks-5", 0.5).canonical())
@@ -109,6 +114,48 @@ def test_a_malformed_specification_is_a_spec_or_one_message(content):
     assert re.fullmatch(r"[a-z0-9-]+/[a-z0-9-]+/alpha-([0-9.]+|none)", spec.cell)
 
 
+def one_message_or(read, path, content):
+    """What ``read`` makes of a file with ``content``; None after one message whose lines are short."""
+    path.write_text(yaml.safe_dump(content, allow_unicode=True), "utf-8")
+    try:
+        return read(path)
+    except BadInput as problem:
+        wrong = [line for line in problem.problems if not ONE_LINE.fullmatch(line.replace(f"{path.parent}/", ""))]  # fmt: skip
+        assert problem.problems  # noqa: PT017
+        assert wrong == []
+        return None
+
+
+CLAIMS = read_yaml(Path("config/claims.yaml"))
+READINGS = read_yaml(Path("config/readings.yaml"))
+STUDY = load(Path("config/config.yaml"))
+CELLS = Matrix(STUDY).cells
+SAFE = re.compile(r"[A-Za-z0-9-]+")
+
+
+@SOME
+@given(content=malformed(CLAIMS))
+def test_malformed_claims_are_claims_or_one_message(tmp_path_factory, content):
+    path = tmp_path_factory.getbasetemp() / "mine.yaml"
+    claims = one_message_or(lambda path: load_claims(path, STUDY), path, content)
+    for name, claim in (claims or {}).items():
+        assert SAFE.fullmatch(name)
+        for part in claim.parts:  # each can be judged: its cells and its measures are there
+            assert all(cell in CELLS for cells in part.comparisons for cell in cells)
+            assert {*part.where, *part.among, *([part.measure] if part.measure else [])} <= set(MEASURES)  # fmt: skip
+
+
+@SOME
+@given(content=malformed(READINGS))
+def test_malformed_sweeps_are_sweeps_or_one_message(tmp_path_factory, content):
+    path = tmp_path_factory.getbasetemp() / "mine.yaml"
+    sweeps = one_message_or(lambda path: load_sweeps(path, STUDY), path, content)
+    for name, sweep in (sweeps or {}).items():
+        assert SAFE.fullmatch(name)
+        for group in groups(sweep, STUDY):  # each is a file's name and a word of a command
+            assert re.fullmatch(r"[A-Za-z0-9._-]+", group.name)
+
+
 @FEW
 @given(st.one_of(st.text(max_size=200), st.binary(max_size=200), anything.map(yaml.safe_dump)))
 def test_any_file_is_a_study_or_one_message(tmp_path_factory, content):
@@ -130,6 +177,12 @@ def test_any_file_is_a_study_or_one_message(tmp_path_factory, content):
         "a: !!binary x",
         "? [1, 2]\n: 3",
         "%YAML 9.9\n---\n",
+        "a: 2001-13-45",
+        "a: !!int x",
+        "a: !!bool perhaps",
+        "a: " + "9" * 5_000,
+        "a0: &a0 {x: 1}\n"
+        + "\n".join(f"a{n}: &a{n} {{<<: [*a{n - 1}, *a{n - 1}]}}" for n in range(1, 60)),
     ],
 )
 def test_hostile_yaml_is_one_message_in_time_and_runs_nothing(tmp_path, text, capsys, monkeypatch):

@@ -17,8 +17,12 @@ from upswing.sweeps.plan import (
 )
 from upswing.sweeps.robustness import decisive, summary, sweep_of
 
-GRID = Sweep(vary=("biases", "initial_weights"), how="grid", seeds=1, cells=("a",))
-PAIRS = Sweep(vary=("first_q", "reset", "wrap"), how="pairs", seeds=1, cells=("a",))
+GRID = Sweep(
+    vary=("biases", "initial_weights"), how="grid", seeds=1, cells=("balancing/table/alpha-1",)
+)
+PAIRS = Sweep(
+    vary=("first_q", "reset", "wrap"), how="pairs", seeds=1, cells=("balancing/table/alpha-1",)
+)
 
 
 def grid_of(holds):

@@ -146,11 +146,11 @@ def test_what_a_job_depends_on_is_in_its_checksum(swept):
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("tables: {vary: [first_Q], how: pairs, seeds: 2, cells: [a]}", "did you mean 'first_q'"),
-        ("tables: {vary: [ties], how: all, seeds: 2, cells: [a]}", "tables.how"),
-        ("tables: {vary: [ties], how: grid, seeds: 0, cells: [a]}", "tables.seeds"),
+        ("tables: {vary: [first_Q], how: pairs, seeds: 2, cells: [balancing/table/alpha-1]}", "did you mean 'first_q'"),
+        ("tables: {vary: [ties], how: all, seeds: 2, cells: [balancing/table/alpha-1]}", "tables.how"),
+        ("tables: {vary: [ties], how: grid, seeds: 0, cells: [balancing/table/alpha-1]}", "tables.seeds"),
         ("tables: {vary: [ties], how: grid, seeds: 2}", "tables.cells"),
-        ("tables: {vary: [ties], without: [[ties, wrap]], how: grid, seeds: 2, cells: [a]}", "'wrap': no such reading"),
+        ("tables: {vary: [ties], without: [[ties, wrap]], how: grid, seeds: 2, cells: [balancing/table/alpha-1]}", "\"wrap\": no such reading"),
         ("- 3", "must hold keys and values"),
     ],
 )  # fmt: skip
@@ -165,7 +165,16 @@ def test_bad_sweeps_are_explained(tmp_path, text, expected):
 
 def test_a_study_without_the_cells_sweeps_nothing(tmp_path):
     path = tmp_path / "readings.yaml"
-    path.write_text("a: {vary: [ties], how: grid, seeds: 1, cells: [no/such/cell]}", "utf-8")
+    text = "a: {vary: [ties], how: grid, seeds: 1, cells: [full-control/table/alpha-1]}"
+    path.write_text(text, "utf-8")
+    with pytest.raises(BadInput, match="no study here has this cell"):
+        load_sweeps(path, STUDY)
+    (tmp_path / "config.yaml").write_text(
+        "seeds: 1\ntasks: {full-control: {kind: full-control, steps: 10}}\n"
+        "architectures: {table: {learner: table}}\n"
+        "experiments: [{tasks: [full-control], architectures: [table], alphas: [1]}]\n",
+        "utf-8",
+    )
     assert load_sweeps(path, STUDY) == {}
     write_study(canonical(STUDY), tmp_path)
     with pytest.raises(BadInput, match="no sweep"):

@@ -13,7 +13,7 @@ from upswing.verdicts import judge, write_verdicts
 # kind, settings, and for each verdict the measures of the three cells that lead to it
 CASES = {
     "share": (
-        part("share", [ONE], where={"x": {"at_least": 1}}, **FROM),
+        part("share", [ONE], where={"swing_ups": {"at_least": 1}}, **FROM),
         {
             "reproduced": [share_of(1)],
             "partly": [share_of(0.7)],
@@ -22,7 +22,7 @@ CASES = {
         },
     ),
     "share, an upper threshold": (
-        part("share", [ONE], where={"x": {"at_least": 1}}, **UP_TO),
+        part("share", [ONE], where={"swing_ups": {"at_least": 1}}, **UP_TO),
         {
             "reproduced": [share_of(0.05)],
             "partly": [share_of(0.3)],
@@ -31,7 +31,7 @@ CASES = {
         },
     ),
     "share_by": (
-        part("share_by", [ONE], measure="x", limit=500, **FROM),
+        part("share_by", [ONE], measure="swing_ups", limit=500, **FROM),
         {
             "reproduced": [np.full(N, 100.0)],
             "partly": [np.where(share_of(0.7) > 0, 100.0, np.nan)],
@@ -40,7 +40,7 @@ CASES = {
         },
     ),
     "location": (
-        part("location", [ONE], measure="x", statistic="median", **FROM),
+        part("location", [ONE], measure="swing_ups", statistic="median", **FROM),
         {
             "reproduced": [0.95 + NOISE],
             "partly": [0.65 + NOISE],
@@ -49,7 +49,7 @@ CASES = {
         },
     ),
     "ratio_of_means": (
-        part("ratio_of_means", [ONE, OTHER], measure="x", **UP_TO),
+        part("ratio_of_means", [ONE, OTHER], measure="swing_ups", **UP_TO),
         {
             "reproduced": [0.1 + NOISE / 10, 1 + NOISE],
             "partly": [0.35 + NOISE / 10, 1 + NOISE],
@@ -58,7 +58,7 @@ CASES = {
         },
     ),
     "difference_of_means": (
-        part("difference_of_means", [ONE, OTHER], measure="x", **FROM),
+        part("difference_of_means", [ONE, OTHER], measure="swing_ups", **FROM),
         {
             "reproduced": [0.95 + NOISE, NOISE[::-1]],
             "partly": [0.65 + NOISE, NOISE[::-1]],
@@ -67,7 +67,7 @@ CASES = {
         },
     ),
     "difference_of_shares": (
-        part("difference_of_shares", [ONE, OTHER], where={"x": {"at_least": 1}}, **FROM),
+        part("difference_of_shares", [ONE, OTHER], where={"swing_ups": {"at_least": 1}}, **FROM),
         {
             "reproduced": [share_of(1), share_of(0)],
             "partly": [share_of(0.8), share_of(0.1)],
@@ -76,7 +76,7 @@ CASES = {
         },
     ),
     "probability_greater": (
-        part("probability_greater", [ONE, OTHER], measure="x", **FROM),
+        part("probability_greater", [ONE, OTHER], measure="swing_ups", **FROM),
         {
             "reproduced": [share_of(1), ZERO],
             "partly": [share_of(0.7) - 0.5, ZERO],
@@ -85,7 +85,7 @@ CASES = {
         },
     ),
     "range_of_shares": (
-        part("range_of_shares", [ONE, OTHER, THIRD], where={"x": {"at_least": 1}}, **FROM),
+        part("range_of_shares", [ONE, OTHER, THIRD], where={"swing_ups": {"at_least": 1}}, **FROM),
         {
             "reproduced": [share_of(1), share_of(0), share_of(0.5)],
             "partly": [share_of(0.9), share_of(0.1), share_of(0.5)],
@@ -94,7 +94,7 @@ CASES = {
         },
     ),
     "range_of_means": (
-        part("range_of_means", [ONE, OTHER, THIRD], measure="x", **UP_TO),
+        part("range_of_means", [ONE, OTHER, THIRD], measure="swing_ups", **UP_TO),
         {
             "reproduced": [0.1 + NOISE, NOISE, 0.05 - NOISE],
             "partly": [0.35 + NOISE, NOISE, 0.1 - NOISE],
@@ -111,7 +111,7 @@ DIGESTS = {"reproduced": 1.0, "partly": 0.7, "inconclusive": 0.5, "not reproduce
 def test_each_verdict_of_each_kind_of_comparison(tmp_path, kind, verdict):
     asked, measures = CASES[kind]
     columns = [*measures[verdict], ZERO, ZERO][:3]
-    results = made_up(tmp_path, x=columns)
+    results = made_up(tmp_path, swing_ups=columns)
     claim = Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])
     (row,) = judge(results, "C0", claim)
     assert row.verdict == verdict, (row.estimate, row.low, row.high)
@@ -134,8 +134,8 @@ def test_each_verdict_of_identical_runs(tmp_path, verdict):
 
 
 def test_runs_are_paired_by_seed_in_whatever_order_they_stand(tmp_path):
-    results = made_up(tmp_path, x=[np.arange(N) + 0.5, np.arange(N), ZERO])
-    asked = part("probability_greater", [ONE, OTHER], measure="x", **FROM)
+    results = made_up(tmp_path, swing_ups=[np.arange(N) + 0.5, np.arange(N), ZERO])
+    asked = part("probability_greater", [ONE, OTHER], measure="swing_ups", **FROM)
     claim = Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])
     (before,) = judge(results, "C0", claim)
     shuffled = results.runs.sample(frac=1, random_state=1).drop(columns="cell")
@@ -152,9 +152,10 @@ def test_a_claim_is_as_good_as_its_weakest_part():
 
 
 def test_the_row_of_a_claim_is_that_of_its_decisive_part(tmp_path):
-    results = made_up(tmp_path, x=[share_of(1), share_of(0.2), share_of(0.3)])
+    results = made_up(tmp_path, swing_ups=[share_of(1), share_of(0.2), share_of(0.3)])
     parts = [
-        part("share", [cell], where={"x": {"at_least": 1}}, **FROM) for cell in (ONE, OTHER, THIRD)
+        part("share", [cell], where={"swing_ups": {"at_least": 1}}, **FROM)
+        for cell in (ONE, OTHER, THIRD)
     ]
     claims = {"C0": Claim(statement="…", section="…", figure=5, cell=ONE, parts=parts)}
     (row,) = write_verdicts(results.folder, claims).to_dict("records")
@@ -167,8 +168,10 @@ def test_the_row_of_a_claim_is_that_of_its_decisive_part(tmp_path):
 
 
 def test_a_cell_that_the_study_has_not_is_named(tmp_path):
-    results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
-    asked = part("share", ["balancing/table/alpha-0.7"], where={"x": {"at_least": 1}}, **FROM)
+    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
+    asked = part(
+        "share", ["balancing/table/alpha-0.7"], where={"swing_ups": {"at_least": 1}}, **FROM
+    )
     claim = Claim(statement="…", section="…", figure=5, cell=None, parts=[asked])
     (row,) = judge(results, "C0", claim)
     assert row.verdict == "not in this study"
@@ -176,7 +179,7 @@ def test_a_cell_that_the_study_has_not_is_named(tmp_path):
 
 
 def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
-    results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
+    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
     runs = results.runs.drop(columns="cell")
     write_table(tmp_path / RUNS, runs[~runs["run"].str.startswith(OTHER)])
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} runs are missing"):
@@ -184,7 +187,7 @@ def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
 
 
 def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
-    results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
+    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
     for path in (tmp_path / "runs" / OTHER).iterdir():
         path.unlink()
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} recordings are missing"):
@@ -192,16 +195,18 @@ def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
 
 
 def test_runs_without_a_value_are_not_paired_in_silence(tmp_path):
-    results = made_up(tmp_path, x=[np.where(share_of(0.5) > 0, 1.0, np.nan), ZERO, ZERO])
-    asked = part("probability_greater", [ONE, OTHER], measure="x", **FROM)
+    results = made_up(tmp_path, swing_ups=[np.where(share_of(0.5) > 0, 1.0, np.nan), ZERO, ZERO])
+    asked = part("probability_greater", [ONE, OTHER], measure="swing_ups", **FROM)
     claim = Claim(statement="…", section="…", figure=5, cell=None, parts=[asked])
-    with pytest.raises(BadInput, match="x: some runs have none"):
+    with pytest.raises(BadInput, match="swing_ups: some runs have none"):
         judge(results, "C0", claim)
 
 
 def test_partly_says_whether_it_may_be_more(tmp_path):
-    results = made_up(tmp_path, x=[share_of(0.75), share_of(0.65), ZERO])
-    parts = [part("share", [cell], where={"x": {"at_least": 1}}, **FROM) for cell in (ONE, OTHER)]
+    results = made_up(tmp_path, swing_ups=[share_of(0.75), share_of(0.65), ZERO])
+    parts = [
+        part("share", [cell], where={"swing_ups": {"at_least": 1}}, **FROM) for cell in (ONE, OTHER)
+    ]
     claim = Claim(statement="…", section="…", figure=5, cell=None, parts=parts)
     rows = judge(results, "C0", claim)
     assert [(row.verdict, row.could_be_better) for row in rows] == [
@@ -210,9 +215,9 @@ def test_partly_says_whether_it_may_be_more(tmp_path):
     ]
 
 
-def test_a_measure_that_is_none_is_named(tmp_path):
-    results = made_up(tmp_path, x=[ZERO, ZERO, ZERO])
-    asked = part("location", [ONE], measure="falls_last_fith", **FROM)
+def test_a_measure_that_a_table_lacks_is_named(tmp_path):
+    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
+    asked = part("location", [ONE], measure="arrival_speed", **FROM)
     claim = Claim(statement="…", section="…", figure=5, cell=None, parts=[asked])
-    with pytest.raises(BadInput, match="did you mean 'falls_last_fifth'"):
+    with pytest.raises(BadInput, match="arrival_speed: no measure of a run"):
         judge(results, "C0", claim)

@@ -3,14 +3,27 @@
 The claims themselves stand in ``config/claims.yaml``.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, RootModel, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    RootModel,
+    ValidationError,
+    model_validator,
+)
 
-from upswing.config import Strict, listed, read_yaml
-from upswing.problems import BadInput, explained
+from upswing.cells import check_cells
+from upswing.config import Strict, Study, listed, once
+from upswing.measured import MEASURES
+from upswing.names import CellName, ClaimName
+from upswing.problems import BadInput, explained, near
+from upswing.readings import Readings, options_of
+from upswing.yaml_file import read_yaml
 
 if TYPE_CHECKING:  # the workflow reads claims, and need not wait for scipy
     from upswing.statistics import Estimate
@@ -37,7 +50,7 @@ Kind = Literal[
     "range_of_means",
     "range_of_shares",
 ]
-Cells = Annotated[tuple[str, ...], BeforeValidator(listed)]
+Cells = Annotated[tuple[CellName, ...], BeforeValidator(listed), once]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 
 CELLS_OF: dict[str, tuple[int, int]] = {
@@ -56,7 +69,28 @@ CELLS_OF: dict[str, tuple[int, int]] = {
 """How many cells each kind compares, at least and at most."""
 
 OF_SHARES = ("share", "difference_of_shares", "range_of_shares")
+WITHIN: dict[str, tuple[float, float]] = {
+    "share": (0, 1),
+    "share_by": (0, 1),
+    "share_identical": (0, 1),
+    "share_contracting": (0, 1),
+    "probability_greater": (0, 1),
+    "range_of_shares": (0, 1),
+    "difference_of_shares": (-1, 1),
+}
+"""Between which values an estimate of each kind lies, where it is not any number."""
+
 WITHOUT_MEASURE = (*OF_SHARES, "share_identical", "share_contracting")
+
+
+def _measured(name: str) -> str:
+    if name not in MEASURES:
+        raise ValueError(f"no measure of a run; {near(name, MEASURES)}")
+    return name
+
+
+Measure = Annotated[str, AfterValidator(_measured)]
+"""A column of the table of runs."""
 
 
 class Bound(Strict):
@@ -65,6 +99,12 @@ class Bound(Strict):
     at_least: Number | None = None
     at_most: Number | None = None
     below: Number | None = None
+
+    @model_validator(mode="after")
+    def _says_something(self) -> Self:
+        if self.at_least is None and self.at_most is None and self.below is None:
+            raise ValueError("write `at_least`, `at_most` or `below`")
+        return self
 
     def __call__(self, value: float) -> bool:
         """Whether ``value`` fulfils the condition."""
@@ -82,14 +122,16 @@ class Part(Strict):
     says: str
     kind: Kind
     because: str
-    measure: str | None = None
+    measure: Measure | None = None
     cells: Cells = ()
     each: Cells = ()  # the part once for each of these cells
     each_pair: Annotated[tuple[Cells, ...], BeforeValidator(listed)] = ()  # … of these pairs
-    where: dict[str, Bound] = Field(default_factory=dict)  # what a run must fulfil to be counted
-    among: dict[str, Bound] = Field(default_factory=dict)  # which runs are looked at, of all
+    where: dict[Measure, Bound] = Field(
+        default_factory=dict
+    )  # what a run must fulfil to be counted
+    among: dict[Measure, Bound] = Field(default_factory=dict)  # which runs are looked at, of all
     statistic: Literal["mean", "median", "interquartile_mean"] = "mean"
-    limit: int | None = None  # of `share_by` [steps]
+    limit: Annotated[int, Field(ge=1)] | None = None  # of `share_by` [steps]
     at_least: Number | None = None
     at_most: Number | None = None
     partly: Number
@@ -101,6 +143,18 @@ class Part(Strict):
     def _fits(self) -> Self:
         if (self.at_least is None) == (self.at_most is None):
             raise ValueError("write either `at_least` or `at_most`")
+        if (self.cells != ()) + (self.each != ()) + (self.each_pair != ()) > 1:
+            raise ValueError("write one of `cells`, `each` and `each_pair`")
+        low, high = WITHIN.get(self.kind, (-inf, inf))
+        if not (low <= self.threshold <= high and low <= self.partly <= high):
+            raise ValueError(f"the thresholds of {self.kind} lie between {low:g} and {high:g}")
+        for name, option in self.only_if.items():
+            if name not in Readings.model_fields:
+                hint = near(name, Readings.model_fields)
+                raise ValueError(f"only_if: {name}: no such reading; {hint}")
+            if option not in options_of(name):
+                options = ", ".join(map(str, options_of(name)))
+                raise ValueError(f"only_if: {name}: {option}: no such option; there are {options}")
         weaker = self.partly <= self.threshold if self.is_lower else self.partly >= self.threshold
         if not weaker:
             raise ValueError("`partly` must be the weaker of the two thresholds")
@@ -168,23 +222,48 @@ class Claim(Strict):
 
     statement: str
     section: str
-    figure: int | None
-    cell: str | None  # the cell whose worst, median and best run show it
+    figure: Annotated[int, Field(ge=1)] | None
+    cell: CellName | None  # the cell whose worst, median and best run show it
     note: str = ""  # what a reader of the verdict must know
     parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
 
 
-class Claims(RootModel[dict[str, Claim]]):
+Claimed = Annotated[dict[ClaimName, Claim], Field(min_length=1)]
+
+
+class Claims(RootModel[Claimed]):
     """All claims by their ids."""
 
 
-def load_claims(path: Path) -> Mapping[str, Claim]:
-    """The claims written in a YAML file; ``BadInput`` with all its problems otherwise."""
+def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
+    """The claims written in a YAML file.
+
+    Raises:
+        BadInput: all that is wrong with them; with a ``study``, also cells that neither it nor another
+            configuration beside the file has.
+    """
     content: dict[str, Any] = read_yaml(path)
     try:
-        return Claims.model_validate(content).root
+        claims = Claims.model_validate(content).root
     except ValidationError as error:
         raise BadInput(explained(Claims, error, lambda _: str(path))) from None
+    if study is not None:
+        check_cells(dict(_cells_of(claims)), study, path)
+    return claims
+
+
+def _cells_of(claims: Mapping[str, Claim]) -> Iterator[tuple[str, str]]:
+    """Every cell that is named, by where it stands."""
+    for name, claim in claims.items():
+        if claim.cell is not None:
+            yield f"{name}.cell", claim.cell
+        for number, part in enumerate(claim.parts):
+            for key in ("cells", "each"):
+                for at, cell in enumerate(getattr(part, key)):
+                    yield f"{name}.parts[{number}].{key}[{at}]", cell
+            for at, pair in enumerate(part.each_pair):
+                for of, cell in enumerate(pair):
+                    yield f"{name}.parts[{number}].each_pair[{at}][{of}]", cell
 
 
 def canonical_claims(claims: Mapping[str, Claim]) -> str:

@@ -178,6 +178,8 @@ def _parser() -> argparse.ArgumentParser:
 
     added = verb("check", _check, "Check a configuration and say what it comes to.")
     added.add_argument("config", nargs="?", type=Path, default=Path("config/config.yaml"))
+    added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
+    added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
 
     verb("schema", _schema, "Print the JSON schema of a configuration.")
     verb("keys", _keys, "Print what every key of a configuration means, in Markdown.")
@@ -204,10 +206,12 @@ def _tables(options: argparse.Namespace) -> None:
 
 def _verdicts(options: argparse.Namespace) -> None:
     from upswing.claims import load_claims
+    from upswing.study import read_study
     from upswing.terminal import print_verdicts
     from upswing.verdicts import write_verdicts
 
-    print_verdicts(write_verdicts(options.results, load_claims(options.claims)))
+    claims = load_claims(options.claims, read_study(options.results))
+    print_verdicts(write_verdicts(options.results, claims))
 
 
 def _compare(options: argparse.Namespace) -> int:
@@ -316,8 +320,9 @@ def _readings(options: argparse.Namespace) -> None:
     from upswing.sweeps.plan import load_sweeps
     from upswing.sweeps.results import write_readings
 
-    sweeps = load_sweeps(options.sweeps, read_study(options.results))
-    print(write_readings(options.results, sweeps, load_claims(options.claims)).to_string())
+    study = read_study(options.results)
+    sweeps, claims = load_sweeps(options.sweeps, study), load_claims(options.claims, study)
+    print(write_readings(options.results, sweeps, claims).to_string())
     draw_readings(options.results, sweeps)
 
 
@@ -348,10 +353,10 @@ def _study(options: argparse.Namespace) -> None:
 
 
 def _check(options: argparse.Namespace) -> None:
-    from upswing.config import load
+    from upswing.check import checked
     from upswing.matrix import Matrix
 
-    matrix = Matrix(load(options.config))
+    matrix = Matrix(checked(options.config, options.claims, options.sweeps))
     steps = sum(cell.task.steps * len(cell.seeds) for cell in matrix.cells.values())
     for cell in matrix.cells.values():
         print(f"{cell.cell:45} {len(cell.seeds):4} runs of {cell.task.steps:>9,} steps")

@@ -1,12 +1,10 @@
 """What the user wrote: the study as a typed value; unknown keys are refused."""
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
-import yaml
 from pydantic import (
     AfterValidator,
     BaseModel,
@@ -18,25 +16,25 @@ from pydantic import (
     model_validator,
 )
 
-from upswing.problems import BadInput, explained, near, problem
+from upswing.names import Alpha, Name, alpha_text
+from upswing.problems import BadInput, explained, near, problem, shown
 from upswing.readings import Readings
+from upswing.yaml_file import read_yaml
 
 T = TypeVar("T")
 
 LARGEST_SEED = 2**32 - 1
 LONGEST_RUN = 100_000_000
-
-
-def _named(name: str) -> str:
-    if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", name) or len(name) > 60:
-        raise ValueError("a name has small letters, digits and single hyphens, a letter first")
-    return name
+MOST_RUNS = 100_000
+"""So many runs of a study can be planned: a dry run of so many takes half a minute."""
 
 
 def _no_value_twice(values: tuple[T, ...]) -> tuple[T, ...]:
-    twice = next((value for i, value in enumerate(values) if value in values[:i]), None)
-    if twice is not None:
-        raise ValueError(f"{twice} stands there twice")
+    seen = set[T]()
+    for value in values:
+        if value in seen:
+            raise ValueError(f"{shown(value)} stands there twice")
+        seen.add(value)
     return values
 
 
@@ -49,8 +47,8 @@ def _counted(value: Any) -> Any:
     if isinstance(value, int) and not isinstance(value, bool):
         if value < 1:
             raise ValueError("write how many seeds there are, 1 or more, or list them")
-        if value > 100_000:
-            raise ValueError("that many seeds cannot be meant")
+        if value > MOST_RUNS:
+            raise ValueError(f"a study has at most {MOST_RUNS:,} runs")
         return tuple(range(value))
     return listed(value)
 
@@ -84,11 +82,16 @@ LearnerName = Annotated[str, _part("learners"), _choice("learners")]
 CodingName = Annotated[str, _part("codings"), _choice("codings")]
 MethodName = Annotated[str, _part("methods"), _choice("methods")]
 
+
+def _folder(text: str) -> str:
+    if not text.isprintable() or set(text) & set("{}*?"):
+        raise ValueError("a folder has no control characters, braces or wildcards")
+    return text
+
+
 once = AfterValidator(_no_value_twice)
 """A list in which nothing stands twice."""
 
-Name = Annotated[str, AfterValidator(_named)]
-Alpha = Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)]
 Steps = Annotated[int, Field(ge=1, le=LONGEST_RUN)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
@@ -282,7 +285,9 @@ class Search(Strict):
 class Study(Strict):
     """A study: everything `make reproduce` computes."""
 
-    results: str = Field(default="results", min_length=1, description="Folder of the results.")
+    results: Annotated[str, AfterValidator(_folder)] = Field(
+        default="results", min_length=1, max_length=1_000, description="Folder of the results."
+    )
     seeds: Seeds = Field(description="How many seeds a cell has (0, 1, …), or a list of them.")
     seeds_per_job: Annotated[int, Field(ge=1, le=1000)] = Field(
         default=15, description="Runs that share one job; more seeds then only add jobs."
@@ -365,8 +370,12 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
                     earlier = cells.setdefault((task, name, alpha), number)
                     if earlier != number:
                         right = f"duplicate cell: experiments[{earlier}] has it already"
-                        written = "none" if alpha is None else f"{alpha:g}"
-                        yield problem(source, place, f"{task}/{name}/alpha-{written}", right)
+                        yield problem(
+                            source, place, f"{task}/{name}/alpha-{alpha_text(alpha)}", right
+                        )
+    if (runs := len(cells) * len(study.seeds)) > MOST_RUNS:
+        right = f"{len(cells)} cells come to {runs:,} runs; a study has at most {MOST_RUNS:,}"
+        yield problem(source, "seeds", len(study.seeds), right)
 
 
 def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
@@ -390,47 +399,6 @@ def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
                 yield problem(source, place, name, f"unknown; {near(name, study.architectures)}")
             elif architecture.learner == "control":
                 yield problem(source, place, name, "a control learns nothing")
-
-
-class _StrictLoader(yaml.SafeLoader):
-    """YAML that notices what it is told twice."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        """A mapping; ``BadInput`` for a key that stands there twice."""
-        seen: set[Any] = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            line = key_node.start_mark.line + 1
-            if not isinstance(key, str):
-                raise BadInput([f"{self.name}: line {line}: {key!r}: a key must be text"])
-            if key in seen:
-                raise BadInput([f"{self.name}: line {line}: {key}: duplicate key; keep one"])
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
-def read_yaml(path: Path) -> dict[str, Any]:
-    """The mapping in a YAML file; ``BadInput`` if there is none, or a key stands there twice."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise BadInput([f"{path}: cannot be read: {error.strerror}"]) from None
-    except UnicodeDecodeError:
-        raise BadInput([f"{path}: is not text in UTF-8"]) from None
-    try:
-        loader = _StrictLoader(text)
-        loader.name = str(path)
-        content = loader.get_single_data()
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f" line {mark.line + 1}:" if mark else ""
-        reason = getattr(error, "problem", None) or str(error)
-        raise BadInput([f"{path}:{place} is not YAML: {reason}"]) from None
-    except RecursionError:
-        raise BadInput([f"{path}: is nested too deeply"]) from None
-    if not isinstance(content, dict):
-        raise BadInput([f"{path}: must hold keys and values at its top level"])
-    return content
 
 
 def schema() -> dict[str, Any]:

@@ -1,11 +1,11 @@
 """What a learner would do without exploring: a greedy evaluation from a fixed grid of starts."""
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from upswing.environment import State, empty_trajectory
+from upswing.measured import Greedy
 from upswing.measures import UPRIGHT
 from upswing.setting import Setting, new_method, streams
 from upswing.spec import Spec
@@ -22,13 +22,6 @@ STEPS = {"balancing": 2_000, "full-control": 4_000}
 
 JUDGED = 1_000
 """Of full control, so many last steps are judged: 5 s [steps]."""
-
-
-class Greedy(NamedTuple):
-    """What the greedy policy came to."""
-
-    greedy_success_share: float  # of the starts: without a fall, or upright ≥ 90 % at the end
-    greedy_upright_share: float  # of the judged steps (balancing: all) of all starts
 
 
 def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from upswing.compiled import compiled
 from upswing.environment import Trajectory
+from upswing.measured import Measures
 from upswing.success import SUCCESS
 from upswing.tasks import HORIZONTAL
 
@@ -30,26 +31,6 @@ bit and the same on every processor."""
 
 Real = NDArray[np.float64]
 Count = NDArray[np.int64]
-
-
-class Measures(NamedTuple):
-    """What is measured of a run; shares and means over its last fifth."""
-
-    steps: int
-    falls: int
-    falls_last_fifth: int
-    upright_share: float
-    above_horizontal_share: float
-    mean_reward: float  # [rad²]
-    first_stable_step: int | None  # the start of the first stable window; None if there is none
-    falls_first_5000: int  # in the first 5,000 steps
-    falls_2500_to_5000: int  # from step 2,500 up to step 5,000
-    falls_after_stable: int | None  # from the first stable step on; None if there is none
-    swing_ups: int  # arrivals above the horizontal from below
-    swing_ups_last_fifth: int
-    arrival_speed: float | None  # mean |φ̇| on arriving [rad/s]; None without arrivals
-    too_fast_share: float | None  # share of arrivals that ±10 m/s² cannot stop; None without them
-    recovered_share: float | None  # see ``_recoveries``, in the last fifth; None if never below
 
 
 class Windows(NamedTuple):

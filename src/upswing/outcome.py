@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from upswing.catching import highest_stoppable_speed
 from upswing.environment import Trajectory
 from upswing.evaluation import evaluate
-from upswing.measures import Measures, Windows, in_windows, measure
+from upswing.measured import Measures
+from upswing.measures import Windows, in_windows, measure
 from upswing.setting import Setting
 from upswing.spec import Spec
 from upswing.store.trajectory import digest, kept_steps

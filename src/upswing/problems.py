@@ -8,6 +8,21 @@ from typing import Any, get_args
 from pydantic import BaseModel, RootModel, ValidationError
 from pydantic_core import ErrorDetails
 
+EXPECTED = {
+    "tuple_type": "must be a list: [a, b]",
+    "list_type": "must be a list: [a, b]",
+    "string_type": "must be text",
+    "int_type": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "float_type": "must be a number",
+    "bool_type": "must be true or false",
+    "dict_type": "must hold keys and values",
+    "model_type": "must hold keys and values",
+    "model_attributes_type": "must hold keys and values",
+    "finite_number": "must be a finite number",
+}
+"""What would be right, in a reader's words rather than Python's."""
+
 Place = tuple[int | str, ...]
 
 
@@ -70,6 +85,8 @@ def _readable(key: str) -> str:
 
 def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:
     place, value = details["loc"], details["input"]
+    if place and place[-1] == "[key]":  # a name in a mapping, which is the value too
+        place = place[:-1]
     match details["type"]:
         case "extra_forbidden":
             known = _fields_at(model, place[:-1])
@@ -87,7 +104,11 @@ def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:
             return problem(source, key_of(place), value, right)
         case "value_error":
             return problem(source, key_of(place), value, str(details["ctx"]["error"]))
-    return problem(source, key_of(place), value, _lower_first(details["msg"]))
+        case "too_short":
+            least = details["ctx"]["min_length"]
+            return problem(source, key_of(place), value, f"must have at least {least}")
+    said = EXPECTED.get(details["type"]) or _lower_first(details["msg"])
+    return problem(source, key_of(place), value, said.replace("input should", "must"))
 
 
 def _fields_at(model: type[BaseModel], place: Place) -> list[str]:

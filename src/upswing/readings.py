@@ -118,3 +118,9 @@ class Readings(BaseModel):
             and (learner in (extra["touches"] or ()) or learner not in EVERYONE)  # type: ignore[operator]
             and (extra["only"] in circumstances or (kind not in KINDS and extra["only"] in KINDS))
         }
+
+
+def options_of(reading: str) -> list[Any]:
+    """The options of a reading, the ledger's default first."""
+    field = Readings.model_json_schema()["properties"][reading]
+    return list(field["enum"]) if "enum" in field else [field["const"]]

@@ -5,12 +5,12 @@ from pathlib import Path
 import pandas as pd
 from PIL import Image
 
-from upswing.config import read_yaml
 from upswing.problems import BadInput
 from upswing.report import words
 from upswing.store.files import written
 from upswing.sweeps.names import SELECTION
 from upswing.tables import VERDICTS
+from upswing.yaml_file import read_yaml
 
 FIGURES = ("overview", "step-sizes")
 """The figures that the README shows."""

@@ -2,17 +2,15 @@
 
 import json
 import shlex
+from collections import Counter
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import BeforeValidator, Field, ValidationError
 
-from upswing.config import Alpha, Architecture, Name, Seed, Share, Strict, Task, listed, once
+from upswing.config import Architecture, Seed, Share, Strict, Task, listed, once
+from upswing.names import Alpha, Name, alpha_text
 from upswing.problems import BadInput, explained, shown
 from upswing.readings import Readings
-
-NO_ALPHA = "none"
-"""What a path says in place of α for a control, which has none."""
 
 
 class NamedTask(Task):
@@ -103,15 +101,11 @@ def cell_id(task: str, architecture: str, alpha: float | None) -> str:
     return f"{task}/{architecture}/alpha-{alpha_text(alpha)}"
 
 
-def alpha_text(alpha: float | None) -> str:
-    """α written shortest: ``1``, ``0.75``, ``0.001``."""
-    return NO_ALPHA if alpha is None else np.format_float_positional(alpha, trim="-")
-
-
 def _no_key_twice(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     content = dict(pairs)
     if len(content) < len(pairs):
-        twice = next(key for i, (key, _) in enumerate(pairs) if key in dict(pairs[:i]))
+        keys = [key for key, _ in pairs]
+        twice = next(key for key, count in Counter(keys).items() if count > 1)
         raise BadInput([f"spec: {twice}: duplicate key; keep one"])
     return content
 

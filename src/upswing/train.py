@@ -12,7 +12,7 @@ from safetensors.numpy import save
 
 from upswing import jobs
 from upswing.environment import Trajectory, empty_trajectory
-from upswing.measures import Measures
+from upswing.measured import Measures
 from upswing.outcome import outcome_of
 from upswing.recordings.run import write_recording
 from upswing.setting import Setting, prepare

@@ -1,7 +1,5 @@
 # Beyond the thesis: what is possible at all, what each change buys, what succeeds every time.
 
-STUDY_TEXT = canonical(STUDY)
-
 
 rule bound:
     output:
@@ -45,7 +43,7 @@ rule shortest:
     benchmark:
         f"{RESULTS}/benchmarks/shortest.tsv"
     params:
-        search=canonical_search(STUDY),
+        search=lambda wildcards: SEARCH_TEXT,
         code=jobs.search(STUDY).fingerprint,
     shell:
         "upswing shortest {STUDY_TEXT:q} --results {RESULTS:q} > {log:q} 2>&1"

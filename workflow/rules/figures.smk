@@ -40,4 +40,4 @@ rule figure:
     params:
         code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
-        "upswing figure {wildcards.figure} {RESULTS:q} > {log:q} 2>&1"
+        "upswing figure {wildcards.figure:q} {RESULTS:q} > {log:q} 2>&1"

@@ -26,7 +26,7 @@ rule sweep:
         ),
         code=lambda wildcards: jobs.sweep(SWEEPS[wildcards.sweep], STUDY).fingerprint,
     shell:
-        "upswing sweep {wildcards.sweep} {wildcards.group} {RESULTS:q} > {log:q} 2>&1"
+        "upswing sweep {wildcards.sweep:q} {wildcards.group:q} {RESULTS:q} > {log:q} 2>&1"
 
 
 rule readings:
@@ -48,7 +48,7 @@ rule readings:
     benchmark:
         f"{RESULTS}/benchmarks/readings.tsv"
     params:
-        claims=canonical_claims(CLAIMS),
+        claims=lambda wildcards: CLAIMS_TEXT,
         code=jobs.READINGS.fingerprint,
     shell:
         "upswing readings {RESULTS:q} > {log:q} 2>&1"

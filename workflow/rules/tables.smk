@@ -9,7 +9,7 @@ rule study:
     benchmark:
         f"{RESULTS}/benchmarks/study.tsv"
     params:
-        study=canonical(STUDY),
+        study=lambda wildcards: STUDY_TEXT,
     shell:
         "upswing study {params.study:q} --results {RESULTS:q} > {log:q} 2>&1"
 
@@ -43,7 +43,7 @@ rule verdicts:
     benchmark:
         f"{RESULTS}/benchmarks/verdicts.tsv"
     params:
-        claims=canonical_claims(CLAIMS),
+        claims=lambda wildcards: CLAIMS_TEXT,
         code=jobs.VERDICTS.fingerprint,
     shell:
         "upswing verdicts {RESULTS:q} > {log:q} 2>&1"

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from upswing.figures.style import GRID, WIDTH, save, subplots
+from upswing.readings import options_of
 from upswing.sweeps.names import READINGS
-from upswing.sweeps.plan import Sweep, number_of, options_of
+from upswing.sweeps.plan import Sweep, number_of
 
 SHADES = {
     "reproduced": "#0B6B3A",

@@ -9,7 +9,8 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from upswing.environment import Trajectory
-from upswing.measures import Measures, Windows
+from upswing.measured import Measures
+from upswing.measures import Windows
 from upswing.pendulum import Pendulum
 from upswing.recordings.frames import (
     SIM_TIME,

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 
 import pandas as pd
 
+from upswing.names import alpha_text
 from upswing.problems import BadInput, near
 from upswing.runs import Results
-from upswing.spec import alpha_text
 from upswing.tables import VERDICTS
 
 KEYS = ("task", "architecture", "alpha", "seed", "claim")

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from upswing import figures
 from upswing.claims import WEAKEST_FIRST
-from upswing.config import Study, read_yaml
+from upswing.config import Study
 from upswing.pendulum import Pendulum
 from upswing.problems import BadInput
 from upswing.readings import Readings
@@ -25,6 +25,7 @@ from upswing.store.provenance import provenance
 from upswing.study import read_study
 from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.tables import CELLS, EVIDENCE, RUNS, VERDICTS
+from upswing.yaml_file import read_yaml
 
 PAGE = "report/index.html"
 RUNS_CSV, EVIDENCE_CSV = "report/runs.csv", "report/evidence.csv"

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from upswing.claims import words_of
+from upswing.names import alpha_text
 from upswing.recordings.names import recording_id
-from upswing.spec import alpha_text
 
 UNKNOWN = "–"
 

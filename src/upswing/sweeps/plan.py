@@ -4,19 +4,27 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from itertools import combinations, product
+from math import prod
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, RootModel, ValidationError
 
-from upswing.config import Seed, Strict, Study, listed, once, read_yaml
+from upswing.cells import check_cells
+from upswing.config import LARGEST_SEED, Seed, Strict, Study, listed, once
 from upswing.matrix import Matrix
-from upswing.problems import BadInput, explained, near
-from upswing.readings import Readings
+from upswing.names import CellName, Name
+from upswing.problems import BadInput, explained, near, problem, shown
+from upswing.readings import Readings, options_of
 from upswing.spec import Spec
+from upswing.yaml_file import read_yaml
 
+Cells = Annotated[tuple[CellName, ...], BeforeValidator(listed), once]
 Names = Annotated[tuple[str, ...], BeforeValidator(listed), once, Field(min_length=1)]
 Pair = Annotated[tuple[str, ...], BeforeValidator(listed), Field(min_length=2, max_length=2)]
+MOST_READINGS = 5_000
+"""Of a grid: a job for every few of them."""
+
 Overrides = dict[str, Any]
 """Readings that differ from the study's, by name."""
 
@@ -33,13 +41,13 @@ class Sweep(Strict):
     )
     first_seed: Seed = Field(default=0, description="Seeds are counted from here.")
     seeds: Annotated[int, Field(ge=1, le=1000)] = Field(description="How many.")
-    cells: Names = Field(description="Ids of cells.")
-    cells_of_singles: Annotated[tuple[str, ...], BeforeValidator(listed), once] = Field(
+    cells: Annotated[Cells, Field(min_length=1)] = Field(description="Ids of cells.")
+    cells_of_singles: Cells = Field(
         default=(), description="Costly cells, run when at most one reading differs."
     )
 
 
-class Sweeps(RootModel[dict[str, Sweep]]):
+class Sweeps(RootModel[dict[Name, Sweep]]):
     """All sweeps by name."""
 
 
@@ -64,12 +72,29 @@ def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
             ("without", [word for pair in sweep.without for word in pair], set(sweep.vary)),
         ):
             problems += [
-                f"{path}: {name}.{key}: {word!r}: no such reading; {near(word, right)}"
+                f"{path}: {name}.{key}: {shown(word)}: no such reading; {near(word, right)[:200]}"
                 for word in words
                 if word not in right
             ]
+        if sweep.first_seed + sweep.seeds - 1 > LARGEST_SEED:
+            beyond = f"with first_seed {sweep.first_seed} the last is beyond {LARGEST_SEED}"
+            problems.append(problem(str(path), f"{name}.seeds", sweep.seeds, beyond))
+        readings = prod(len(options_of(word)) for word in sweep.vary if word in known)
+        if sweep.how == "grid" and readings > MOST_READINGS:
+            too_many = f"a grid of these has {readings:,} readings; at most {MOST_READINGS:,}"
+            problems.append(problem(str(path), f"{name}.vary", sweep.vary, too_many))
     if problems:
         raise BadInput(problems)
+    check_cells(
+        {
+            f"{name}.{key}[{number}]": cell
+            for name, sweep in sweeps.items()
+            for key in ("cells", "cells_of_singles")
+            for number, cell in enumerate(getattr(sweep, key))
+        },
+        study,
+        path,
+    )
     # A study with fewer cells sweeps fewer.
     return {
         name: sweep
@@ -134,12 +159,6 @@ def content_of(sweep: Sweep, study: Study, group: Group, cells: Mapping[str, Spe
     ]
     texts += [canonical_of(member) for member in group.members]
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
-
-
-def options_of(reading: str) -> list[Any]:
-    """The options of a reading, the ledger's default first."""
-    field = Readings.model_json_schema()["properties"][reading]
-    return list(field["enum"]) if "enum" in field else [field["const"]]
 
 
 def number_of(reading: str) -> str:

@@ -1,0 +1,34 @@
+"""What is measured of a run, by name: light, so that claims are checked without what computes it."""
+
+from typing import NamedTuple
+
+
+class Measures(NamedTuple):
+    """What is measured of a run; shares and means over its last fifth."""
+
+    steps: int
+    falls: int
+    falls_last_fifth: int
+    upright_share: float
+    above_horizontal_share: float
+    mean_reward: float  # [rad²]
+    first_stable_step: int | None  # the start of the first stable window; None if there is none
+    falls_first_5000: int  # in the first 5,000 steps
+    falls_2500_to_5000: int  # from step 2,500 up to step 5,000
+    falls_after_stable: int | None  # from the first stable step on; None if there is none
+    swing_ups: int  # arrivals above the horizontal from below
+    swing_ups_last_fifth: int
+    arrival_speed: float | None  # mean |φ̇| on arriving [rad/s]; None without arrivals
+    too_fast_share: float | None  # share of arrivals that ±10 m/s² cannot stop; None without them
+    recovered_share: float | None  # see ``_recoveries``, in the last fifth; None if never below
+
+
+class Greedy(NamedTuple):
+    """What the greedy policy came to."""
+
+    greedy_success_share: float  # of the starts: without a fall, or upright ≥ 90 % at the end
+    greedy_upright_share: float  # of the judged steps (balancing: all) of all starts
+
+
+MEASURES = (*Measures._fields, *Greedy._fields, "seconds", "steps_per_second")
+"""The columns of the table of runs that a claim may ask for."""
