@@ -39,7 +39,6 @@ def test_a_program_and_what_it_started_end_with_the_block(how):
     try:
         with running(SHELL) as process:
             members = family(process.pid)
-            assert len(members) >= 3 or how
             if how == "exception":
                 raise ValueError
     except ValueError:
@@ -93,11 +92,11 @@ def test_a_signal_to_us_ends_the_program(sign, code):
 
 def test_what_a_program_printed_and_why_it_failed():
     assert finished(["sh", "-c", "echo here"], 10) == b"here\n"
-    with pytest.raises(RuntimeError, match="^no such luck$"):
+    with pytest.raises(RuntimeError, match=r"^no such luck$"):
         finished(["sh", "-c", "echo first >&2; echo no such luck >&2; exit 3"], 10)
     with pytest.raises(RuntimeError, match="exit code 3"):
         finished(["sh", "-c", "exit 3"], 10)
-    with pytest.raises(RuntimeError, match="not done after 0.2 s"):
+    with pytest.raises(RuntimeError, match=r"not done after 0\.2 s"):
         finished(SLEEP, 0.2)
 
 

@@ -1,8 +1,8 @@
 """Foreign programs: whatever is started here has ended before we have, however we end.
 
-A program runs in a session of its own, so that it ends with all that it has started itself. It ends when its
-block does, by an exception too; asked to end (SIGTERM, a terminal that is closed), we end it first. Killed
-outright, we can end nothing, and so on Linux the kernel is asked beforehand to kill it with us.
+A program runs in a session of its own, so that it ends with all that it has started itself. It ends when
+its block does, by an exception too; asked to end (SIGTERM, a terminal that is closed), we end it first.
+Killed outright, we can end nothing, and so on Linux the kernel is asked beforehand to kill it with us.
 """
 
 import ctypes
@@ -55,7 +55,7 @@ def running(
             stderr=stderr,
             start_new_session=True,
             # It calls one function of C that is at hand already, which is safe beside other threads.
-            preexec_fn=_die_with(os.getpid()),  # noqa: PLW1509
+            preexec_fn=_die_with(os.getpid()),
         )
         try:
             yield process
@@ -113,9 +113,9 @@ def _die_with(parent: int) -> Callable[[], None] | None:
 
 @contextmanager
 def _ending_orderly() -> Iterator[None]:
-    """A signal that would end us at once is an exception in the block; one that is seen to already, is not."""
+    """A signal that would end us at once is an exception in the block."""
 
-    def raise_it(sign: int, frame: FrameType | None) -> None:
+    def raise_it(sign: int, _: FrameType | None) -> None:
         raise AskedToEnd(sign)
 
     replaced = []

@@ -61,6 +61,10 @@ def train(spec: Spec, results: Path) -> None:
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
             failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
             print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
+            # A run's files are of one whole: what was written of this one is no use, nor is an older one's.
+            for path in place.parent.glob(f"{place.name}.*"):
+                if path.is_file():
+                    path.unlink()
         else:
             finished.append(one)
             rate = spec.task.steps / run.seconds
