@@ -1,10 +1,10 @@
 """The report with every run's recording, while ``upswing browse`` runs: on loopback, behind a token.
 
-The report opened from files can show the recordings that are kept beside it. Here it is served by us, and
-a recording that is not kept is packed when it is asked for. Any page that a browser here shows can ask at
-any port of this machine; so an answer is only for who asks at the address with the token that ``browse``
-prints, by a name of this machine, and not from another site's page. Connections are bounded in number and
-in time.
+The report opened from files can show the recordings that are kept beside it. Here it is served by us,
+and a recording that is not kept is packed when it is asked for. Any page that a browser here shows can
+ask at any port of this machine; so an answer is only for who asks at the address with the token that
+``browse`` prints, by a name of this machine, and not from another site's page. Connections are bounded
+in number and in time.
 """
 
 import hmac
@@ -90,6 +90,7 @@ class _Server(ThreadingHTTPServer):
 
     block_on_close = False  # an answer that is being taken does not keep us
     daemon_threads = True
+    request_queue_size = 4 * CONNECTIONS  # those who wait to be let in, or turned away
     server_address: tuple[str, int]
 
     def __init__(self, address: tuple[str, int], results: Results, token: str) -> None:
