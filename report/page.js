@@ -54,5 +54,6 @@ function filter() {
 }
 
 for (const one of [...filters, words]) one.addEventListener("input", filter);
+document.getElementById("runs-filters").addEventListener("submit", (event) => event.preventDefault());
 document.getElementById("runs-filters").hidden = false;
 filter();

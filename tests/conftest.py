@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import Browser, sync_playwright
 
 from tests.helpers import ARCHITECTURES
+from tests.leftovers import _nothing_left_running  # noqa: F401  a fixture of every session
 from upswing.claims import load_claims
 from upswing.config import validated
 from upswing.matrix import Matrix

@@ -11,6 +11,7 @@ import pytest
 
 from upswing.config import load
 from upswing.figures import draw, drawable
+from upswing.policies import source_of
 from upswing.problems import BadInput
 from upswing.readme import TABLE, renewed, verdicts_of, write_readme
 from upswing.recordings.comparison import write_comparisons
@@ -52,6 +53,38 @@ def opened(browser, address):
 def test_it_needs_nothing_else_and_complains_of_nothing(opened, address):
     opened.wait_for_load_state("networkidle")
     assert [request for request in opened.requests if not request.startswith("data:")] == [address]
+    assert opened.said == []
+
+
+def test_its_policy_names_its_own_script_and_style_by_hash(opened, results):
+    text = (results.folder / PAGE).read_text("utf-8")
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', text)[1]
+    allowed = dict(part.strip().split(" ", 1) for part in policy.split(";"))
+    for element in ("script", "style"):
+        (own,) = re.findall(rf"<{element}>(.*?)</{element}>", text, re.DOTALL)
+        assert allowed[f"{element}-src"] == source_of(own)
+    assert "unsafe" not in policy
+    # Nothing that the hashes do not cover: it would be without effect.
+    assert not re.search(r'<[^>]*\s(style|on\w+)="', text)
+    # What came in with data would not run, escaped or not.
+    opened.evaluate(
+        """() => {
+          const script = document.createElement("script");
+          script.textContent = "document.title = 'foreign'";
+          document.body.append(script);
+          document.body.insertAdjacentHTML("beforeend", "<img src=x onerror='document.title = 1'>");
+        }"""
+    )
+    opened.wait_for_timeout(300)
+    assert opened.title().startswith("upswing")
+    assert len(opened.said) >= 2
+
+
+def test_the_filters_send_nothing_anywhere(opened, address):
+    opened.fill("#runs-words", "seed-1")
+    opened.press("#runs-words", "Enter")
+    opened.wait_for_timeout(300)
+    assert opened.url == address
     assert opened.said == []
 
 

@@ -22,11 +22,12 @@ from upswing.codings import locate
 from upswing.environment import empty_trajectory
 from upswing.measures import in_windows, measure
 from upswing.problems import BadInput
-from upswing.recordings.browse import catalog, free_port
+from upswing.recordings.browse import catalog
 from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.frames import STRETCH, stretches
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import VIEWER, comparison_names
+from upswing.recordings.ports import free_port
 from upswing.recordings.screenshots import headless_viewer, take_screenshots, wait_until_loaded
 from upswing.recordings.selection import select
 from upswing.setting import prepare
@@ -96,6 +97,41 @@ def test_identical_runs_have_equal_recordings(results, tmp_path):
         subprocess.run([VIEWER, "rrd", "verify", one], check=False, capture_output=True).returncode
         == 0
     )
+
+
+FULL = """
+import resource, signal, sys
+from pathlib import Path
+from tests.helpers import make_spec
+from upswing.train import RunsFailed, train
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), -1))
+try:
+    train(make_spec(steps=20_000), Path(sys.argv[1]))
+except RunsFailed as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize("before", ["nothing", "an older run"])
+def test_a_disk_that_fills_while_a_recording_is_written_is_said_and_leaves_no_half_set(
+    tmp_path, before
+):
+    spec = make_spec(steps=20_000)
+    train(spec, tmp_path / "whole")
+    place = tmp_path / "whole/runs" / spec.run(0)
+    sizes = {path.suffix: path.stat().st_size for path in place.parent.glob("seed-0.*")}
+    trajectory = place.with_name("seed-0.trajectory.parquet").stat().st_size
+    assert trajectory < 250_000 < sizes[".rrd"], "the limit must hit the recording"
+    if before == "an older run":
+        train(spec, tmp_path / "full")
+    command = [sys.executable, "-c", FULL, tmp_path / "full", "250000"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "File too large" in done.stdout, done
+    assert "alpha-1/seed-0" in done.stdout
+    assert "Traceback" not in done.stderr
+    assert "prematurely" not in done.stdout + done.stderr
+    assert [path for path in (tmp_path / "full").rglob("*") if path.is_file()] == []
 
 
 def _columns(path):
@@ -226,10 +262,10 @@ def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
 def browsing(results, *words):
     """A process that serves a page of the runs, and its children; other ports if these were taken."""
     for _ in range(3):
-        web, port = free_port(), free_port()
+        web, port, report = free_port(), free_port(), free_port()
         command = [
             sys.executable, "-m", "upswing.cli", "browse", *words, "--web", "--port", str(port),
-            "--web-port", str(web), "--results", str(results.folder),
+            "--web-port", str(web), "--report-port", str(report), "--results", str(results.folder),
         ]  # fmt: skip
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         until = time.monotonic() + 60
@@ -246,12 +282,15 @@ def browsing(results, *words):
     pytest.fail(f"no page was served: {said!r}")
 
 
-@pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGTERM])
-def test_ctrl_c_leaves_no_process_behind(results, sign):
+@pytest.mark.parametrize(
+    ("sign", "code"),
+    [(signal.SIGINT, 0), (signal.SIGTERM, 0), (signal.SIGHUP, 129), (signal.SIGKILL, -9)],
+)
+def test_however_browse_ends_it_leaves_no_process_behind(results, sign, code):
     process, children = browsing(results)
     try:
         process.send_signal(sign)
-        assert process.wait(15) == 0
+        assert process.wait(15) == code
     finally:
         process.kill()
     _, alive = psutil.wait_procs(children, timeout=5)

@@ -1,24 +1,32 @@
-"""Recordings in a browser: from plain files, from the desk of `upswing browse`, from the catalog."""
+"""Recordings in a browser: from plain files, as `upswing browse` serves the report, from the catalog."""
 
 import base64
 import gzip
+import http.client
+import os
 import re
 import socket
 import subprocess
-import urllib.error
-import urllib.request
+import threading
+import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from tests.test_recordings import browsing
+from upswing.policies import source_of
+from upswing.recordings import engine as engine_module
 from upswing.recordings import lending as lending_module
 from upswing.recordings.comparison import write_comparisons
-from upswing.recordings.lending import PORT, lending
+from upswing.recordings.engine import FILES, engine
+from upswing.recordings.lending import lending
 from upswing.recordings.names import VIEWER, recording_id
-from upswing.recordings.singly import chosen_runs, script_of_run, with_layout
+from upswing.recordings.ports import listens
+from upswing.recordings.singly import chosen_runs, script_of_layout, script_of_run
 from upswing.recordings.viewer import FOLDER, write_viewer
+from upswing.report.page import write_report
 
 pytestmark = pytest.mark.xdist_group("viewer")
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
@@ -34,25 +42,30 @@ def names(results):
 
 
 def unpacked(script):
-    name, packed = re.fullmatch(r'arrived\("([\w-]+)","([\w+/=]+)"\)\n', script).groups()
-    return name, gzip.decompress(base64.b64decode(packed))
+    name, packed, layout = re.fullmatch(
+        r'arrived\("([\w-]+)","([\w+/=]+)","([\w-]*)"\)\n', script
+    ).groups()
+    return name, gzip.decompress(base64.b64decode(packed)), layout
 
 
-def test_a_recording_handed_out_is_whole_and_has_its_layout(results, tmp_path):
-    name, content = unpacked(script_of_run(results, RUN))
-    assert name == recording_id(RUN)
-    file = tmp_path / "one.rrd"
-    file.write_bytes(content)
+def test_a_recording_handed_out_is_the_runs_own_file_and_names_its_layout(results, tmp_path):
+    script = script_of_run(results, RUN)
+    name, content, layout = unpacked(script)
+    assert (name, layout) == (recording_id(RUN), "full-control")
+    assert content == (results.folder / "runs" / f"{RUN}.rrd").read_bytes()
+    assert script_of_run(results, RUN) == script
+    _, layout, _ = unpacked(script_of_layout(results, "full-control"))
+    assert b"Phase plane, policy" in layout
+    file = tmp_path / "layout.rbl"
+    file.write_bytes(layout)
     done = subprocess.run([VIEWER, "rrd", "verify", file], capture_output=True, check=False)
     assert done.returncode == 0
-    alone = (results.folder / "runs" / f"{RUN}.rrd").read_bytes()
-    assert b"Phase plane, policy" in content
-    assert b"Phase plane, policy" not in alone
 
 
 def test_a_run_without_a_recording_is_named(results):
+    missing = "balancing/table/alpha-1/seed-77"
     with pytest.raises(FileNotFoundError, match=r"seed-77\.rrd: missing"):
-        with_layout(results, "balancing/table/alpha-1/seed-77")
+        script_of_run(results, missing)
 
 
 def test_chosen_recordings_stand_beside_the_report(results, names):
@@ -63,8 +76,126 @@ def test_chosen_recordings_stand_beside_the_report(results, names):
     assert not list(folder.parent.glob("*.part"))
     written = {path: path.read_bytes() for path in folder.rglob("*.js")}
     write_viewer(results, Path("report"))
-    engines = {path for path in written if path.name in ("viewer.js", "engine.js")}
-    assert all(path.read_bytes() == written[path] for path in engines)
+    # Rerun gives a layout other ids each time; all else is the same.
+    assert all(
+        path.read_bytes() == content
+        for path, content in written.items()
+        if path.parent.name != "layouts"
+    )
+
+
+def test_the_viewers_page_allows_what_it_brings_and_nothing_else(results, names):
+    page = (results.folder / FOLDER / "index.html").read_text("utf-8")
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1]
+    assert "unsafe-inline" not in page
+    assert "THE-" not in page
+    assert "http" not in policy
+    for element in ("script", "style"):
+        (own,) = re.findall(rf"<{element}>(.*?)</{element}>", page, re.DOTALL)
+        assert f"{element}-src" in policy
+        assert source_of(own) in policy
+    assert not re.search(r'\s(style|on\w+)="', page)
+
+
+# The viewer's files, kept by version.
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """A cache of its own, and how often the viewer was asked for its files, which are small here."""
+    asked = []
+    monkeypatch.setattr(engine_module, "user_cache_path", lambda _: tmp_path / "cache")
+    monkeypatch.setattr(
+        engine_module, "_fetched", lambda: asked.append(1) or [b"script", b"program"]
+    )
+    return tmp_path / "cache", asked
+
+
+def test_the_viewers_own_files_are_handed_out():
+    script, program = engine_module._fetched()
+    assert script.startswith(b"let wasm_bindgen")
+    assert program.startswith(b"\0asm")
+
+
+def kept(folder):
+    return sorted(folder.rglob("*.gz"))
+
+
+def test_the_viewers_files_are_fetched_once_for_a_version(cache, monkeypatch):
+    folder, asked = cache
+    first = engine()
+    assert [gzip.decompress(packed) for packed in first] == [b"script", b"program"]
+    assert engine() == first
+    assert len(asked) == 1
+    assert [path.stem for path in kept(folder)] == sorted(FILES)
+    for path in kept(folder):
+        assert path.stat().st_mode & 0o777 == 0o600
+        assert path.parent.stat().st_mode & 0o777 == 0o700
+    monkeypatch.setattr(engine_module, "version", lambda _: "77.0")
+    assert engine() == first
+    assert len(asked) == 2
+
+
+def truncated(path):
+    path.write_bytes(path.read_bytes()[:-1])
+
+
+def one_bit(path):
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(bytes(content))
+
+
+def writable_by_others(path):
+    path.chmod(0o666)
+
+
+def of_somebody_else(path):
+    if os.geteuid():
+        pytest.skip("only root can give a file away")
+    os.chown(path, 65534, 65534)
+
+
+def a_link(path):
+    path.rename(path.with_name("elsewhere"))
+    path.symlink_to("elsewhere")
+
+
+def a_folder_for_all(path):
+    path.parent.chmod(0o777)
+
+
+@pytest.mark.parametrize(
+    "change", [truncated, one_bit, writable_by_others, of_somebody_else, a_link, a_folder_for_all]
+)
+def test_what_is_kept_is_not_used_if_it_is_damaged_or_could_be_anothers(cache, change):
+    folder, asked = cache
+    first = engine()
+    change(kept(folder)[1])
+    assert engine() == first
+    assert len(asked) == 2
+    if change is not a_folder_for_all:  # then it was kept anew
+        assert engine() == first
+        assert len(asked) == 2
+
+
+def test_without_a_cache_it_is_fetched(cache, tmp_path):
+    folder, asked = cache
+    folder.write_text("a file")
+    assert engine() == engine()
+    assert len(asked) == 2
+
+
+def test_what_another_program_answers_is_not_taken_for_the_viewers(tmp_path, monkeypatch):
+    folder = tmp_path / "cache"
+    monkeypatch.setattr(engine_module, "user_cache_path", lambda _: folder)
+    monkeypatch.setattr(engine_module, "_answered", lambda _: b"alert(1)")
+    with pytest.raises(RuntimeError, match="answered with what is not of"):
+        engine()
+    assert kept(folder) == []
+
+
+# In a browser.
 
 
 def opened(browser, address):
@@ -102,7 +233,8 @@ def test_a_recording_opens_from_plain_files_and_nothing_leaves_the_page(
     assert shows_something(page, tmp_path)
     assert {Path(address.partition("#")[0]).name for address in requests} == {
         "index.html", f"{name}.js", "viewer.js", "engine.js",
-    }  # fmt: skip
+        *(() if kind == "claim" else ("full-control.js", "balancing.js")),
+    } - ({"balancing.js"} if name.startswith("full") else {"full-control.js"})  # fmt: skip
     assert all(address.startswith("file://") for address in requests)
     with page.expect_download() as download:
         page.click("#save")
@@ -128,55 +260,239 @@ def test_what_cannot_be_opened_is_explained(browser, results, names, name, expec
     page.close()
 
 
-def free(port):
-    with socket.socket() as probe:
-        return probe.connect_ex(("127.0.0.1", port)) != 0
+def test_the_page_from_a_file_loads_nothing_from_a_port(browser, results, names):
+    """Whoever holds a port of this machine is not asked for scripts."""
+    asked = []
+    page = browser.new_page()
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(f"{(results.folder / FOLDER / 'index.html').as_uri()}#no-such-run")
+    page.get_by_text("make browse").wait_for(timeout=10_000)
+    assert all(address.startswith("file://") for address in asked)
+    page.close()
+    for path in (*Path("report").rglob("*.html"), *Path("report").glob("*.js")):
+        assert not re.search(r"https?://|localhost|127\.0", path.read_text("utf-8")), path
 
 
-def test_while_browsing_the_page_opens_every_run(browser, results, names, tmp_path):
-    if not free(PORT):
-        pytest.skip(f"port {PORT} is in use here")
+# The report as `upswing browse` serves it.
+
+
+@pytest.fixture(scope="module")
+def served(results, names):
+    """The report of the study, served."""
+    write_report(results.folder, Path("report"))
+    with lending(results, 0) as lent:
+        yield lent
+
+
+def test_the_served_report_opens_every_run(browser, results, names, served, tmp_path):
     missing = next(run for run in results.runs["run"] if recording_id(run) not in names)
-    address = f"{(results.folder / FOLDER / 'index.html').as_uri()}#{recording_id(missing)}"
-    with lending(results) as port:
-        assert port == PORT
-        page, requests = opened(browser, address)
-        page.wait_for_selector("body[data-state=open]", timeout=LONG)
-        assert f"http://127.0.0.1:{PORT}/{recording_id(missing)}.js" in requests
-        page.close()
-    assert free(PORT)
+    page, requests = opened(browser, served.page)
+    said = []
+    page.on("console", lambda message: said.append(message.text))
+    page.locator(f"#runs-table a[href$='#{recording_id(missing)}']").click()
+    page.wait_for_selector("body[data-state=open]", timeout=LONG)
+    assert shows_something(page, tmp_path)
+    assert f"{served.base}report/viewer/recordings/{recording_id(missing)}.js" in requests
+    assert all(address.startswith((served.base, "data:", "blob:")) for address in requests)
+    # The viewer asks elsewhere for news of itself, which is refused; no script or style of ours is.
+    assert [words for words in said if "script-src" in words or "style-src" in words] == []
+    assert all("onnect" in words for words in said if "Security Policy" in words)
+    page.close()
 
 
-def test_the_page_asks_at_the_port_that_is_served():
-    page = Path("report/viewer.html").read_text("utf-8")
-    assert set(re.findall(r"127\.0\.0\.1:(\d+)", page)) == {str(PORT)}
+def test_a_page_of_another_origin_gets_nothing_even_with_the_token(browser, results, served):
+    """What a browser says of the request decides, and what the answer says of itself."""
+    address = f"{served.base}report/viewer/recordings/{recording_id(RUN)}.js"
+    page = browser.new_page()
+    page.goto("data:text/html,<title>elsewhere</title>")
+    loaded = page.evaluate(
+        """(address) => new Promise((done) => {
+          window.arrived = () => done("read");
+          const script = document.createElement("script");
+          script.src = address;
+          script.onload = () => done("loaded");
+          script.onerror = () => done("refused");
+          document.head.append(script);
+        })""",
+        address,
+    )
+    assert loaded == "refused"
+    page.close()
 
 
-def answer(port, path, host=None):
-    request = urllib.request.Request(f"http://127.0.0.1:{port}/{path}")
-    if host:
-        request.add_header("Host", host)
-    try:
-        with urllib.request.urlopen(request, timeout=10) as reply:
-            return reply.status, reply.read().decode("ascii")
-    except urllib.error.HTTPError as error:
-        return error.code, ""
+def asked(port, path, method="GET", **headers):
+    with closing(http.client.HTTPConnection("127.0.0.1", port, timeout=10)) as connection:
+        connection.putrequest(method, path, skip_host="Host" in headers)
+        for name, value in headers.items():
+            connection.putheader(name.replace("_", "-"), value)
+        connection.endheaders()
+        reply = connection.getresponse()
+        return reply.status, reply.read(), dict(reply.getheaders())
 
 
-def test_the_desk_hands_out_runs_and_nothing_else(results, monkeypatch):
-    with lending(results, 0) as port:
-        status, script = answer(port, f"{recording_id(RUN)}.js")
+def test_it_answers_with_the_token_and_says_how_it_may_be_used(results, served):
+    path = f"/{served.token}/report/viewer/recordings/{recording_id(RUN)}.js"
+    status, content, headers = asked(served.port, path)
+    assert status == 200
+    assert unpacked(content.decode("ascii"))[0] == recording_id(RUN)
+    assert headers["Content-Type"].startswith("text/javascript")
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
+    assert headers["Referrer-Policy"] == "no-referrer"
+    assert headers["Cache-Control"] == "no-store"
+    assert "Access-Control-Allow-Origin" not in headers
+    assert asked(served.port, path, "HEAD")[:2] == (200, b"")
+    for kind, file in (("text/html", "index.html"), ("text/csv", "runs.csv")):
+        status, content, headers = asked(served.port, f"/{served.token}/report/{file}")
         assert status == 200
-        assert unpacked(script)[0] == recording_id(RUN)
-        for path in ("", "study.json", "../study.json", "%2e%2e/study.json", "runs/x.js"):
-            assert answer(port, path)[0] == 404
-        assert answer(port, f"{recording_id(RUN)}.js", "elsewhere.example")[0] == 403
-        monkeypatch.setattr(
-            lending_module, "script_of_run", lambda *_: (_ for _ in ()).throw(OSError("gone"))
-        )
-        assert answer(port, f"{recording_id(RUN)}.js")[0] == 500
-        with lending(results, port) as second:
-            assert second is None
+        assert headers["Content-Type"].startswith(kind)
+        assert content == (results.folder / "report" / file).read_bytes()
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "elsewhere.example"},
+        {"Host": "elsewhere.example:{port}"},
+        {"Host": "127.0.0.1"},
+        {"Host": "127.0.0.1:1"},
+        {"Sec_Fetch_Site": "cross-site"},
+        {"Sec_Fetch_Site": "same-site"},
+        {"Origin": "null"},
+        {"Origin": "http://127.0.0.1:1"},
+        {"Origin": "https://elsewhere.example"},
+    ],
+)
+def test_who_comes_from_elsewhere_is_refused(served, headers):
+    given = {name: value.format(port=served.port) for name, value in headers.items()}
+    status, content, answered = asked(served.port, f"/{served.token}/report/index.html", **given)
+    assert status == 403
+    assert b"upswing" not in content
+    assert answered["X-Content-Type-Options"] == "nosniff"
+
+
+def test_who_is_at_home_is_answered(served):
+    for headers in (
+        {"Sec_Fetch_Site": "same-origin", "Origin": f"http://127.0.0.1:{served.port}"},
+        {"Sec_Fetch_Site": "none"},
+        {"Host": f"localhost:{served.port}"},
+    ):
+        assert asked(served.port, f"/{served.token}/report/index.html", **headers)[0] == 200
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ("/", 403),
+        ("/report/index.html", 403),
+        ("/{other}/report/index.html", 403),
+        ("//report/index.html", 403),
+        ("/é/report/index.html", 403),
+        ("/{token}/study.json", 404),
+        ("/{token}/tables/runs.parquet", 404),
+        ("/{token}/report/../study.json", 404),
+        ("/{token}/report/../tables/secret.csv", 404),
+        ("/{token}/report/%2e%2e/tables/secret.csv", 404),
+        ("/{token}/report/..%2ftables/secret.csv", 404),
+        ("/{token}//etc/report/x.html", 404),
+        ("/{token}/report/link.csv", 404),
+        ("/{token}/report/%00.html", 404),
+        ("/{token}/report/viewer/recordings/no-such-run.js", 404),
+        ("/{token}/report/viewer/layouts/no-such-task.js", 404),
+    ],
+)
+def test_nothing_but_the_report_is_served(results, served, tmp_path, path, expected):
+    secret = results.folder / "tables/secret.csv"
+    link = results.folder / "report/link.csv"
+    outside = tmp_path / "outside.csv"
+    for file in (secret, outside):
+        file.write_text("a,b\n", "utf-8")
+    link.symlink_to(outside)
+    try:
+        address = path.format(token=served.token, other="x" * len(served.token))
+        assert asked(served.port, address.replace("é", "%C3%A9"))[0] == expected
+    finally:
+        secret.unlink()
+        link.unlink()
+
+
+def test_a_token_is_of_one_session_and_a_port_that_is_taken_is_left_alone(results, served):
+    with lending(results, served.port) as second:
+        assert second.port != served.port
+        assert second.token != served.token
+        assert len(second.token) >= 40
+    assert not listens(second.port)
+
+
+def test_what_cannot_be_read_is_said_in_one_line(results, served, monkeypatch, capfd):
+    def gone(*_):
+        raise OSError("gone")
+
+    monkeypatch.setattr(lending_module, "script_of_run", gone)
+    missing = next(
+        run
+        for run in results.runs["run"]
+        if not (results.folder / FOLDER / "recordings" / f"{recording_id(run)}.js").exists()
+    )
+    path = f"/{served.token}/report/viewer/recordings/{recording_id(missing)}.js"
+    assert asked(served.port, path)[0] == 500
+    assert capfd.readouterr().out == "upswing: gone\n"
+
+
+def hello(lent, method="GET"):
+    path = f"/{lent.token}/report/viewer/engine.js"
+    return f"{method} {path} HTTP/1.0\r\nHost: 127.0.0.1:{lent.port}\r\n\r\n".encode()
+
+
+def test_who_leaves_early_prints_nothing(results, served, capfd):
+    for _ in range(5):
+        with socket.create_connection(("127.0.0.1", served.port)) as client:
+            client.sendall(hello(served))
+            client.recv(10)
+            # It goes with a reset, while megabytes are on their way.
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")
+    with socket.create_connection(("127.0.0.1", served.port)) as client:
+        client.sendall(b"GET /half")
+    time.sleep(0.5)
+    assert capfd.readouterr() == ("", "")
+    assert asked(served.port, f"/{served.token}/report/index.html")[0] == 200
+
+
+def test_connections_are_bounded_in_number_and_time(results, names, monkeypatch):
+    monkeypatch.setattr(lending_module, "ASKING", 1.0)
+    monkeypatch.setattr(lending_module, "ANSWERING", 2.0)
+    with lending(results, 0) as lent:
+        idle = [socket.create_connection(("127.0.0.1", lent.port), 5) for _ in range(40)]
+        time.sleep(0.3)
+        busy = [one for one in threading.enumerate() if "process_request_thread" in one.name]
+        assert len(busy) == lending_module.CONNECTIONS
+        # Those who say nothing, or a letter now and then, are cut off, and there is room again.
+        slow = idle[0]
+        began = time.monotonic()
+        try:
+            while time.monotonic() - began < 5:
+                slow.sendall(b"G")
+                time.sleep(0.1)
+        except OSError:
+            pass
+        assert time.monotonic() - began < 3
+        assert asked(lent.port, "/")[0] == 403
+        # So is who asks and does not take the answer.
+        with socket.socket() as client:
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            client.connect(("127.0.0.1", lent.port))
+            client.sendall(hello(lent))
+            time.sleep(3)
+            client.settimeout(5)
+            taken = 0
+            try:
+                while piece := client.recv(1 << 20):
+                    taken += len(piece)
+            except OSError:
+                pass
+            assert taken < (results.folder / FOLDER / "engine.js").stat().st_size
+        for one in idle:
+            one.close()
 
 
 @pytest.mark.parametrize("what", ["run", "table"])
@@ -188,7 +504,7 @@ def test_the_web_viewer_shows_a_run_and_the_catalogs_table(browser, results, tmp
         address = next(
             found.group(1)
             for line in lines
-            if (found := re.search(r"at (http://\S+)", line.decode()))
+            if (found := re.search(r"runs? at (http://\S+)", line.decode()))
         )
         page, requests = opened(browser, address)
         page.wait_for_selector("canvas.visible", timeout=LONG)

@@ -97,6 +97,10 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--print", action="store_true", help="only say what would be opened")
     added.add_argument("--port", type=int, default=9871, help="of the catalog (default: 9871)")
     added.add_argument("--web-port", type=int, default=9872, help="of the page (default: 9872)")
+    added.add_argument(
+        "--report-port", type=int, default=9873,
+        help="of the report (default: 9873, or a free one if that is in use)",
+    )  # fmt: skip
     added.set_defaults(verb=_browse)
 
     summary = "Take the README's pictures of the recordings, in a viewer without a screen."
@@ -225,7 +229,7 @@ def _compare(options: argparse.Namespace) -> int:
 
 def _browse(options: argparse.Namespace) -> None:
     from upswing.recordings.browse import catalog, show
-    from upswing.recordings.lending import PORT, lending
+    from upswing.recordings.lending import PAGE, lending
     from upswing.recordings.selection import select
     from upswing.runs import Results
 
@@ -234,9 +238,12 @@ def _browse(options: argparse.Namespace) -> None:
     if options.print:
         print("\n".join(str(options.results / recording) for recording in runs["recording"]))
         return
-    with catalog(results, runs, options.port) as served, lending(results) as port:
-        if port is None:
-            print(f"port {PORT} is in use: the report's links open only the runs kept beside it")
+    with (
+        catalog(results, runs, options.port) as served,
+        lending(results, options.report_port) as lent,
+    ):
+        if (options.results / PAGE).exists():
+            print(f"the report, in which every run opens: {lent.page}", flush=True)
         show(served, options.web, options.web_port)
 
 

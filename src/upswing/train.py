@@ -1,6 +1,8 @@
 """A specification → its runs → their artefacts."""
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -56,7 +58,8 @@ def train(spec: Spec, results: Path) -> None:
             continue
         try:
             run = learn(one, seed, trajectory)
-            measures = _store(one, seed, run, results)
+            with _all_or_none(place):
+                measures = _store(one, seed, run, results)
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
             failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
             print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
@@ -70,6 +73,18 @@ def train(spec: Spec, results: Path) -> None:
             files = sorted(place.parent.glob(f"{place.name}.*"))
             keep(results, one.run(one.seeds[0]), _identity(one), files)
         raise RunsFailed("\n".join(failed))
+
+
+@contextmanager
+def _all_or_none(place: Path) -> Iterator[None]:
+    """The files of a run belong together: if one cannot be written, the others go, old or new."""
+    try:
+        yield
+    except BaseException:
+        for path in place.parent.glob(f"{place.name}.*"):
+            if path.is_file():
+                path.unlink()
+        raise
 
 
 def _identity(one: Spec) -> str:

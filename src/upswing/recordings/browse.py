@@ -2,8 +2,6 @@
 
 import os
 import signal
-import socket
-import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,8 +13,9 @@ from urllib.parse import quote
 import pandas as pd
 
 from upswing.problems import BadInput
-from upswing.recordings.lending import LOOPBACK
+from upswing.processes import running
 from upswing.recordings.names import VIEWER
+from upswing.recordings.ports import LOOPBACK, check_free
 from upswing.runs import Results
 
 PORT, WEB_PORT = 9871, 9872
@@ -38,7 +37,7 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
 
     from upswing.recordings.layout import run_layout, table_layout
 
-    _check_free(port)
+    check_free(port)
     paths = {
         str(task): [results.folder / recording for recording in group["recording"]]
         for task, group in runs.groupby("task", sort=False)
@@ -73,7 +72,7 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
 def show(catalog: Catalog, web: bool, web_port: int) -> None:
     """Open a viewer on ``catalog`` and wait until it is closed, or Ctrl-C."""
     if web:
-        _check_free(web_port)
+        check_free(web_port)
         command = [str(VIEWER), "--serve-web", "--bind", LOOPBACK]
         command += ["--web-viewer-port", str(web_port), catalog.url]
         page = f"http://{LOOPBACK}:{web_port}/?url={quote(catalog.url, safe='')}"
@@ -88,21 +87,11 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
     # However it is asked to end, it ends as by Ctrl-C; a shell may have switched that off.
     for sign in (signal.SIGINT, signal.SIGTERM):
         signal.signal(sign, signal.default_int_handler)
-    # A session of its own, so that nothing of the viewer is left behind.
-    with subprocess.Popen(command, start_new_session=True) as process:
+    with running(command) as process:
         try:
             process.wait()
         except KeyboardInterrupt:
             print()
-        finally:
-            _end(process)
-
-
-def free_port() -> int:
-    """A port on loopback that nobody uses."""
-    with socket.socket() as probe:
-        probe.bind((LOOPBACK, 0))
-        return int(probe.getsockname()[1])
 
 
 def has_display() -> bool:
@@ -110,25 +99,3 @@ def has_display() -> bool:
     if sys.platform != "linux":
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    for sign in (signal.SIGTERM, signal.SIGKILL):
-        try:
-            os.killpg(process.pid, sign)
-            process.wait(5)
-        except ProcessLookupError:
-            return
-        except subprocess.TimeoutExpired:
-            continue
-
-
-def _check_free(port: int) -> None:
-    with socket.socket() as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((LOOPBACK, port))
-        except OSError:
-            raise BadInput(
-                [f"port {port} is in use; choose others with --port and --web-port"]
-            ) from None

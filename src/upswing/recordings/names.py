@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,8 +10,18 @@ if TYPE_CHECKING:
     from upswing.claims import Claim
     from upswing.spec import Spec
 
-VIEWER = Path(sys.executable).with_name("rerun")
-"""The program that Rerun installs."""
+
+def _viewer() -> Path:
+    found = find_spec("rerun_cli")
+    if found is None or found.origin is None:
+        return Path(sys.executable).with_name("rerun")
+    folder = Path(found.origin).parent
+    bundled = folder / "Rerun.app/Contents/MacOS/Rerun"
+    return bundled if bundled.exists() else folder / "rerun"
+
+
+VIEWER = _viewer()
+"""Rerun's program itself. ``bin/rerun`` starts it as a second process, which outlives the first."""
 
 
 def recording_id(run: str) -> str:

@@ -48,13 +48,15 @@ def write_recording(
     """Write the recording of ``run``, with its parameters and measures as ``properties``.
 
     The layout is not in it: it is registered with the catalog once.
+
+    Raises:
+        OSError: it cannot be written; the disk may be full.
     """
     rr.set_strict_mode(True)  # otherwise errors become warnings and data is dropped
-    with written(path) as beside:
-        recording = rr.RecordingStream(
-            f"upswing-{run.split('/')[0]}", recording_id=recording_id(run)
-        )
-        recording.save(beside)
+    recording = rr.RecordingStream(f"upswing-{run.split('/')[0]}", recording_id=recording_id(run))
+    # Rerun's own writing of files ends at a full disk without saying so.
+    memory = recording.memory_recording()
+    try:
         rr.send_recording_name(run, recording=recording)
         recording.send_property("run", rr.AnyValues(**_known(properties)))
         frames = stretches(trajectory, windows, measures.first_stable_step)
@@ -65,8 +67,11 @@ def write_recording(
         draw_phase_plane(recording, frames, trajectory, learned)
         draw_learned(recording, frames, learned)
         _events(recording, frames, trajectory, measures)
-        recording.flush()
+        content = memory.drain_as_bytes()
+    finally:
         recording.disconnect()
+    with written(path) as beside:
+        beside.write_bytes(content)
 
 
 def _lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 from PIL import Image
 
-from upswing.recordings.browse import catalog, free_port
+from upswing.processes import running
+from upswing.recordings.browse import catalog
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import VIEWER
+from upswing.recordings.ports import LOOPBACK, free_port, listens
 from upswing.runs import Results
 from upswing.store.files import written
 
@@ -59,13 +61,15 @@ def headless_viewer() -> Iterator["ViewerClient"]:
     """A viewer without a screen, of 1920 × 1080 pixels; it needs a Vulkan driver, Mesa's will do."""
     from rerun.experimental import ViewerClient
 
-    viewer = ViewerClient.spawn(
-        headless=True, port=free_port(), hide_welcome_screen=True, executable_path=str(VIEWER)
-    )
-    try:
-        yield viewer
-    finally:
-        viewer.quit()
+    port = free_port()
+    command = [str(VIEWER), "--headless", "--hide-welcome-screen", "--bind", LOOPBACK]
+    with running([*command, "--port", str(port)]) as process:
+        until = time.monotonic() + PATIENCE
+        while not listens(port):
+            if process.poll() is not None or time.monotonic() > until:
+                raise RuntimeError("the viewer did not start; it needs a Vulkan driver")
+            time.sleep(0.05)
+        yield ViewerClient.connect(f"rerun+http://{LOOPBACK}:{port}/proxy")
 
 
 def wait_until_loaded(viewer: "ViewerClient") -> None:

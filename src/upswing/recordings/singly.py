@@ -1,18 +1,24 @@
-"""Recordings handed out singly: with their layout in them, and as scripts that a plain page loads."""
+"""Recordings handed out singly, as scripts: a page that is opened from a file may load nothing else.
+
+A run's recording is handed out as it is, byte for byte: the one whose checksum the run has. Its layout
+is a script of its own, one for each task. (Rerun could merge the two, into other bytes each time.)
+"""
 
 import base64
 import gzip
 import json
-import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas as pd
 
 from upswing.recordings.layout import run_layout
-from upswing.recordings.names import VIEWER, recording_id
+from upswing.recordings.names import recording_id
 from upswing.runs import Results
 from upswing.tables import VERDICTS
+
+RECORDINGS, LAYOUTS = "recordings", "layouts"
+"""The folders of the scripts, beside the page that loads them."""
 
 
 def chosen_runs(results: Results) -> list[str]:
@@ -32,8 +38,8 @@ def chosen_runs(results: Results) -> list[str]:
     return list(dict.fromkeys([*shown, *of_claims]))
 
 
-def with_layout(results: Results, run: str) -> bytes:
-    """A run's recording with the layout in it, as one whole file.
+def script_of_run(results: Results, run: str) -> str:
+    """A run's recording as a script, which names its layout.
 
     Raises:
         FileNotFoundError: the run has no recording.
@@ -41,27 +47,29 @@ def with_layout(results: Results, run: str) -> bytes:
     recording = results.folder / "runs" / f"{run}.rrd"
     if not recording.is_file():
         raise FileNotFoundError(f"{recording}: missing; run the study again")
-    task = results.cells[run.rsplit("/", 1)[0]].task
+    task = results.cells[run.rsplit("/", 1)[0]].task.name
+    return script_of(recording_id(run), recording.read_bytes(), task)
+
+
+def script_of_layout(results: Results, task: str) -> str:
+    """The layout of the runs of a task as a script."""
+    kind = next(cell.task.kind for cell in results.cells.values() if cell.task.name == task)
     with TemporaryDirectory() as folder:
-        layout, merged = Path(folder) / "layout.rbl", Path(folder) / "merged.rrd"
-        run_layout(task.kind).save(f"upswing-{task.name}", layout)
-        command = [str(VIEWER), "rrd", "merge", str(layout), str(recording), "-o", str(merged)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise RuntimeError(f"{recording}: {done.stderr.strip().splitlines()[-1]}")
-        return merged.read_bytes()
+        layout = Path(folder) / "layout.rbl"
+        run_layout(kind).save(f"upswing-{task}", layout)
+        return script_of("layout", layout.read_bytes())
 
 
-def script_of(name: str, recording: bytes) -> str:
-    """A recording as a script: a page that is opened from a file may load scripts and nothing else."""
-    return f'arrived("{name}","{packed(recording)}")\n'
+def script_of(name: str, content: bytes, layout: str = "") -> str:
+    """A recording as a script that hands it to the page, with the name of its layout."""
+    return script_of_compressed(name, compressed(content), layout)
 
 
-def script_of_run(results: Results, run: str) -> str:
-    """A run's recording, with its layout, as a script."""
-    return script_of(recording_id(run), with_layout(results, run))
+def script_of_compressed(name: str, content: bytes, layout: str = "") -> str:
+    """What was compressed already as a script that hands it to the page."""
+    return f'arrived("{name}","{base64.b64encode(content).decode("ascii")}","{layout}")\n'
 
 
-def packed(content: bytes) -> str:
-    """Compressed and in base64; the same for the same content."""
-    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode("ascii")
+def compressed(content: bytes) -> bytes:
+    """With gzip; the same for the same content."""
+    return gzip.compress(content, 6, mtime=0)

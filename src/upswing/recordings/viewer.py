@@ -5,23 +5,26 @@ starts it stands in ``report/viewer.html``; that interface is Rerun's own and ma
 which is why a test opens the page in a browser.
 """
 
+import gzip
 import shutil
-import subprocess
-import time
 from pathlib import Path
-from urllib.error import URLError
-from urllib.request import urlopen
 
-from upswing.recordings.browse import free_port
+from upswing.policies import with_hashes
 from upswing.recordings.comparison import claim_names, task_names
-from upswing.recordings.lending import LOOPBACK
-from upswing.recordings.names import VIEWER, recording_id
-from upswing.recordings.singly import chosen_runs, packed, script_of, script_of_run
+from upswing.recordings.engine import engine
+from upswing.recordings.names import recording_id
+from upswing.recordings.singly import (
+    LAYOUTS,
+    RECORDINGS,
+    chosen_runs,
+    script_of,
+    script_of_compressed,
+    script_of_layout,
+    script_of_run,
+)
 from upswing.runs import Results
 
 FOLDER = "report/viewer"
-PATIENCE = 20.0
-"""The viewer's own server has so long to start [s]."""
 
 
 def write_viewer(results: Results, templates: Path) -> list[str]:
@@ -34,11 +37,15 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
     folder = results.folder / FOLDER
     beside = folder.with_name(f"{folder.name}.part")
     shutil.rmtree(beside, ignore_errors=True)
-    (beside / "recordings").mkdir(parents=True)
-    shutil.copyfile(templates / "viewer.html", beside / "index.html")
-    code, engine = _viewer_files()
-    (beside / "viewer.js").write_bytes(code)
-    (beside / "engine.js").write_text(f'arrived("engine","{packed(engine)}")\n', "ascii")
+    for inner in (RECORDINGS, LAYOUTS):
+        (beside / inner).mkdir(parents=True)
+    page = with_hashes((templates / "viewer.html").read_text("utf-8"))
+    (beside / "index.html").write_text(page, "utf-8")
+    viewer = engine()
+    (beside / "viewer.js").write_bytes(gzip.decompress(viewer.script))
+    (beside / "engine.js").write_text(script_of_compressed("engine", viewer.program), "ascii")
+    for task in sorted({cell.task.name for cell in results.cells.values()}):
+        (beside / LAYOUTS / f"{task}.js").write_text(script_of_layout(results, task), "ascii")
     names = []
     for kind, one_of in (("task", task_names(results)), ("claim", claim_names(results))):
         for each in one_of:
@@ -54,33 +61,4 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
 
 
 def _write_script(folder: Path, name: str, script: str) -> None:
-    (folder / "recordings" / f"{name}.js").write_text(script, "ascii")
-
-
-def _viewer_files() -> tuple[bytes, bytes]:
-    """The script and the WebAssembly of the installed viewer, which only its server hands out."""
-    port, other = free_port(), free_port()
-    command = [str(VIEWER), "--serve-web", "--bind", LOOPBACK, "--port", str(other)]
-    with subprocess.Popen(
-        [*command, "--web-viewer-port", str(port)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    ) as server:
-        try:
-            code = _fetched(f"http://{LOOPBACK}:{port}/re_viewer.js")
-            return code, _fetched(f"http://{LOOPBACK}:{port}/re_viewer_bg.wasm")
-        finally:
-            server.terminate()
-
-
-def _fetched(address: str) -> bytes:
-    until = time.monotonic() + PATIENCE
-    while True:
-        try:
-            with urlopen(address, timeout=PATIENCE) as answer:  # noqa: S310  our own server
-                content: bytes = answer.read()
-                return content
-        except URLError:
-            if time.monotonic() > until:
-                raise RuntimeError(f"{address}: the viewer did not start") from None
-            time.sleep(0.1)
+    (folder / RECORDINGS / f"{name}.js").write_text(script, "ascii")

@@ -14,6 +14,7 @@ from upswing import figures
 from upswing.claims import WEAKEST_FIRST
 from upswing.config import Study
 from upswing.pendulum import Pendulum
+from upswing.policies import source_of
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.report import words
@@ -48,7 +49,7 @@ def write_report(results: Path, templates: Path) -> None:
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters.update(words.FILTERS)
+    environment.filters.update(words.FILTERS, source_of=source_of)
     verdicts = _verdicts(results)
     cells = _rows(results / CELLS)
     runs = _rows(results / RUNS)
