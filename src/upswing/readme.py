@@ -9,8 +9,9 @@ from upswing.config import read_yaml
 from upswing.problems import BadInput
 from upswing.report import words
 from upswing.store.files import written
-from upswing.sweeps.names import SELECTION
-from upswing.tables import VERDICTS
+from upswing.store.table import read_table
+from upswing.sweeps.names import OF_A_SELECTION, SELECTION
+from upswing.tables import read_verdicts
 
 FIGURES = ("overview", "step-sizes")
 """The figures that the README shows."""
@@ -25,13 +26,13 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     Raises:
         BadInput: the results have no verdicts or figures, or the README no place for a part.
     """
-    if not (results / VERDICTS).exists():
-        raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
+    verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
-        verdicts_of(pd.read_parquet(results / VERDICTS)).to_csv(beside, index=False)
+        verdicts.to_csv(beside, index=False)
     if (results / SELECTION).exists():
+        selection = read_table(results / SELECTION, OF_A_SELECTION, "`make readings` makes it")
         with written(templates / "selection.csv") as beside:
-            pd.read_parquet(results / SELECTION).to_csv(beside, index=False, float_format="%.6g")
+            selection.to_csv(beside, index=False, float_format="%.6g")
     for name in FIGURES:
         source = results / "figures" / f"{name}.png"
         if not source.exists():

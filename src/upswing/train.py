@@ -13,7 +13,7 @@ from safetensors.numpy import save
 from upswing.catching import highest_stoppable_speed
 from upswing.evaluation import evaluate
 from upswing.loop import Trajectory, empty_trajectory
-from upswing.matrix import training_code
+from upswing.matrix import RUN_FILES, training_code
 from upswing.measures import Measures, in_windows, measure
 from upswing.recordings.run import write_recording
 from upswing.setting import Setting, prepare
@@ -22,6 +22,7 @@ from upswing.spec import Spec
 from upswing.store.checksums import checksum
 from upswing.store.files import written
 from upswing.store.kept import keep, take_back
+from upswing.store.ledger import ledger_of_run, seal
 from upswing.store.provenance import metadata, provenance
 from upswing.store.trajectory import digest, kept_steps, write_trajectory, write_windows
 
@@ -53,11 +54,13 @@ def train(spec: Spec, results: Path) -> None:
         place = results / "runs" / one.run(seed)
         if take_back(results, one.run(seed), _identity(one), place.parent):
             print("  was finished before, when another run of its job failed", flush=True)
+            _seal(one, results)
             finished.append(one)
             continue
         try:
             run = learn(one, seed, trajectory)
             measures = _store(one, seed, run, results)
+            _seal(one, results)
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
             failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
             print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
@@ -76,6 +79,14 @@ def train(spec: Spec, results: Path) -> None:
 def _identity(one: Spec) -> str:
     """What a finished run must be of to be used again: its specification and the code that trains it."""
     return f"{training_code(one.architecture, one.task.kind)} {one.canonical()}"
+
+
+def _seal(one: Spec, results: Path) -> None:
+    """Keep the checksums of a run's files, and what they are of, where neither can change the other."""
+    run = one.run(one.seeds[0])
+    files = [results / "runs" / f"{run}.{kind}" for kind in RUN_FILES]
+    code = training_code(one.architecture, one.task.kind)
+    seal(results, ledger_of_run(run), files, spec=one.canonical(), code=code)
 
 
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
@@ -101,7 +112,11 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     kept = kept_steps(run.trajectory, measures.first_stable_step)
     learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
     place = results / "runs" / spec.run(seed)
-    content: dict[str, Any] = {"spec": spec.canonical(), "run": spec.run(seed)}
+    content: dict[str, Any] = {
+        "spec": spec.canonical(),
+        "run": spec.run(seed),
+        "code": training_code(spec.architecture, spec.task.kind),
+    }
     outcome: dict[str, Any] = {
         **measures._asdict(),
         **evaluate(run.setting, spec, seed)._asdict(),

@@ -1,4 +1,14 @@
-"""Where the tables of the bound stand; light, so that the workflow can read it."""
+"""Where the tables of the bound stand, and what is in them; light, so that the workflow can read it."""
 
 BOUND = "tables/bound.parquet"
 MAPS = "tables/bound_maps.parquet"
+
+OF_THE_BOUND = {
+    "quantity": "text", "value": "number", "unit": "text", "grid": "text", "task": "text",
+    "policy": "text?", "discount": "number", "note": "text",
+}  # fmt: skip
+OF_THE_MAPS = {
+    "angle": "number", "angular_velocity": "number", "time_to_upright": "number", "keepable": "truth",
+    "upright": "truth", "action_fastest": "whole",
+}  # fmt: skip
+REMEDY = "`upswing bound` makes it"

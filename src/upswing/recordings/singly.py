@@ -7,17 +7,15 @@ import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import pandas as pd
-
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import VIEWER, recording_id
 from upswing.runs import Results
-from upswing.tables import VERDICTS
+from upswing.tables import read_verdicts
 
 
 def chosen_runs(results: Results) -> list[str]:
     """The runs that the report shows: those of its figures, and each claim's worst, median and best."""
-    verdicts = pd.read_parquet(results.folder / VERDICTS)
+    verdicts = read_verdicts(results.folder)
     of_claims = [
         str(path).removeprefix("runs/").removesuffix(".rrd")
         for paths in verdicts["recordings"]

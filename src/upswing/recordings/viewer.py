@@ -18,6 +18,7 @@ from upswing.recordings.lending import LOOPBACK
 from upswing.recordings.names import VIEWER, recording_id
 from upswing.recordings.singly import chosen_runs, packed, script_of, script_of_run
 from upswing.runs import Results
+from upswing.store.ledger import seal
 
 FOLDER = "report/viewer"
 PATIENCE = 20.0
@@ -50,6 +51,7 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
         _write_script(beside, names[-1], script_of_run(results, run))
     shutil.rmtree(folder, ignore_errors=True)
     beside.rename(folder)
+    seal(results.folder, "viewer", [folder])
     return names
 
 
