@@ -118,21 +118,20 @@ def _of_run(
         for finding in _of_ledger(results, ledger_path(results, ledger_of_run(run)), there):
             named.add(finding.path)
             yield finding
-    if windows not in there:
+    if windows not in there or windows in named:
         return
     try:
         pq.read_table(windows)
         metadata = read_metadata(windows)
     except (OSError, pa.ArrowException, KeyError, TypeError, ValueError) as error:
-        if windows not in named:
-            problem = error.problems[0] if isinstance(error, BadInput) else str(error)
-            yield _damaged(windows, f"cannot be read: {(problem.splitlines() or [''])[0]}")
+        problem = error.problems[0] if isinstance(error, BadInput) else str(error)
+        yield _damaged(windows, f"cannot be read: {(problem.splitlines() or [''])[0]}")
         return
     if metadata["spec"] != spec.of_seed(seed).canonical():
         yield _damaged(windows, f"is of another specification: {metadata['spec']}")
         return
     for kind, recorded in metadata.get("checksums", {}).items():
-        path = paths[kind]
+        path = paths.get(kind)
         if path in there and path not in named and checksum(path) != recorded:
             yield _damaged(path, "is not the file that was written: its checksum differs")
     yield metadata

@@ -3,7 +3,7 @@
 A checksum shows damage; a table that somebody edited together with its checksum shows only here.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -95,12 +95,19 @@ def judged_by(results: Path) -> str | None:
         return None
 
 
-def _held(table: str, read: Any, made: Any) -> Iterator[Wrong]:
+def _held(
+    table: str, read: Callable[[], pd.DataFrame], made: Callable[[], pd.DataFrame]
+) -> Iterator[Wrong]:
     """A table as it is against the same made anew."""
     try:
-        there, again = read(), made()
+        again = made()
     except BadInput:
-        return  # what cannot be read is named elsewhere
+        return  # what it is made from is damaged, and named for itself
+    try:
+        there = read()
+    except BadInput as error:
+        yield table, error.problems[0].partition(f"{table}: ")[2].rpartition(";")[0]
+        return
     if difference := _difference(there, again):
         yield table, f"is not what its runs come to: {difference}"
 
