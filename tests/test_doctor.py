@@ -232,7 +232,11 @@ def test_a_missing_table_is_found(folder):
 def test_a_run_of_another_specification_is_found(folder):
     other = folder / "runs/balancing/table/alpha-1/seed-1.windows.parquet"
     shutil.copy(other, folder / f"{RUN}.windows.parquet")
-    assert any("is of another specification" in what for _, what in found(folder))
+    assert found(folder) == [(f"{RUN}.windows.parquet", CHANGED)]
+    resealed(folder, RUN)
+    ((place, what),) = found(folder)
+    assert place == f"{RUN}.windows.parquet"
+    assert what.startswith("is of another specification")
 
 
 def test_orphans_are_named_and_deleted_and_nothing_else(folder, capsys):
