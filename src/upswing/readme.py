@@ -11,7 +11,7 @@ from upswing.report import words
 from upswing.store.files import written
 from upswing.store.table import read_table
 from upswing.sweeps.names import OF_A_SELECTION, SELECTION
-from upswing.tables import read_verdicts
+from upswing.tables import VERDICTS, read_verdicts
 
 FIGURES = ("overview", "step-sizes")
 """The figures that the README shows."""
@@ -26,6 +26,8 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     Raises:
         BadInput: the results have no verdicts or figures, or the README no place for a part.
     """
+    if not (results / VERDICTS).exists():
+        raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
     verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
         verdicts.to_csv(beside, index=False)

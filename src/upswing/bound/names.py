@@ -9,6 +9,5 @@ OF_THE_BOUND = {
 }  # fmt: skip
 OF_THE_MAPS = {
     "angle": "number", "angular_velocity": "number", "time_to_upright": "number", "keepable": "truth",
-    "upright": "truth", "action_fastest": "whole",
 }  # fmt: skip
 REMEDY = "`upswing bound` makes it"
