@@ -28,6 +28,7 @@ from upswing.matrix import (
 )
 from upswing.problems import BadInput
 from upswing.recordings.names import comparison_names
+from upswing.records import restore
 from upswing.study import canonical
 from upswing.sweeps.plan import content_of, groups
 
@@ -51,13 +52,6 @@ except BadInput as error:
     raise WorkflowError(str(error)) from None
 
 RESULTS = STUDY.results
-if Path(RESULTS, "study.json").exists() and not any(
-    Path(".snakemake/metadata").glob("*")
-):
-    logger.warning(
-        f"There is no record of how these results were made (.snakemake is missing): what is in {RESULTS} is "
-        "taken as it is, whatever the code or the configuration has become since. If unsure: make clean"
-    )
 MATRIX = Matrix(STUDY)
 # Params get these from functions: in a text of its own Snakemake would take `{seed}` for a wildcard.
 STUDY_TEXT = canonical(STUDY)
@@ -112,3 +106,36 @@ include: "workflow/rules/recordings.smk"
 include: "workflow/rules/readings.smk"
 include: "workflow/rules/beyond.smk"
 include: "workflow/rules/report.smk"
+
+
+# Where Snakemake has no record of how a file was made, it would take it as it is without a word.
+if workflow.is_main_process and Path(RESULTS).is_dir():
+    FORGOTTEN = restore(
+        RESULTS,
+        MATRIX,
+        cheap=[
+            f"{RESULTS}/study.json",
+            *rules.tables.output,
+            *rules.verdicts.output,
+            *rules.comparisons.output,
+            *expand(
+                f"{RESULTS}/figures/{{figure}}.{{kind}}",
+                figure=DRAWABLE,
+                kind=["svg", "png", "json"],
+            ),
+            *rules.viewer.output,
+            *rules.report.output,
+            *([f"{RESULTS}/{CHANGED}"] if CHANGES else []),
+        ],
+        dear=[
+            *(f"{RESULTS}/readings/{swept}.parquet" for swept in SWEPT),
+            *(rules.readings.output if SWEPT else []),
+            *(table for table in BEYOND_TABLES if CHANGES and CHANGED not in table),
+        ],
+    )
+    if FORGOTTEN:
+        logger.warning(
+            f"There is no record of how {len(FORGOTTEN)} files in {RESULTS} were made, {FORGOTTEN[0]} first: "
+            "they are taken as they are, whatever the code or the configuration has become since. If unsure, "
+            "delete them; they will be made again"
+        )

@@ -91,7 +91,7 @@ def whole(study):
         if not file.name.startswith("."):
             pd.read_parquet(file)
     found = examine(study.folder / "results").findings
-    assert {finding.what for finding in found} <= {"missing"}
+    assert all(finding.what.startswith("missing") for finding in found)
 
 
 @pytest.mark.heavy

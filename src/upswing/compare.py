@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from upswing.problems import BadInput
-from upswing.tables import EVIDENCE, RUNS, VERDICTS
+from upswing.matrix import Matrix
+from upswing.study import read_study
+from upswing.tables import read_evidence, read_runs, read_verdicts
 
 
 class Comparison(NamedTuple):
@@ -27,8 +28,11 @@ def compare(a: Path, b: Path) -> Comparison:
 
     A verdict that only one of them has counts as changed. An estimate has parted if it lies outside
     the other's interval, either way round, or if only one of them has it.
+
+    Raises:
+        BadInput: a folder lacks a table, or has one that is empty or of another origin.
     """
-    verdicts_a, verdicts_b = (_read(folder, VERDICTS).set_index("claim") for folder in (a, b))
+    verdicts_a, verdicts_b = (read_verdicts(folder).set_index("claim") for folder in (a, b))
     claims = [*verdicts_a.index, *verdicts_b.index.difference(verdicts_a.index)]
     changed = []
     for claim in claims:
@@ -39,8 +43,8 @@ def compare(a: Path, b: Path) -> Comparison:
         if before != after:
             changed.append((str(claim), before, after))
     key = ["claim", "part", "cells"]
-    both = _read(a, EVIDENCE).merge(
-        _read(b, EVIDENCE), on=key, how="outer", suffixes=("_a", "_b"), indicator=True
+    both = read_evidence(a).merge(
+        read_evidence(b), on=key, how="outer", suffixes=("_a", "_b"), indicator=True
     )
     outside = (
         (both["estimate_a"] < both["low_b"])
@@ -58,7 +62,7 @@ def compare(a: Path, b: Path) -> Comparison:
         )
         for row in both[outside].to_dict("records")
     ]
-    runs_a, runs_b = (_read(folder, RUNS).set_index("run")["digest"] for folder in (a, b))
+    runs_a, runs_b = (_runs(folder).set_index("run")["digest"] for folder in (a, b))
     common = runs_a.index.intersection(runs_b.index)
     differ = runs_a[common] != runs_b[common]
     return Comparison(
@@ -71,8 +75,5 @@ def compare(a: Path, b: Path) -> Comparison:
     )
 
 
-def _read(folder: Path, table: str) -> pd.DataFrame:
-    path = folder / table
-    if not path.exists():
-        raise BadInput([f"{path}: missing; run the study of that folder first"])
-    return pd.read_parquet(path)
+def _runs(folder: Path) -> pd.DataFrame:
+    return read_runs(folder, set(Matrix(read_study(folder)).runs))

@@ -8,8 +8,9 @@ from PIL import Image
 from upswing.problems import BadInput
 from upswing.report import words
 from upswing.store.files import written
-from upswing.sweeps.names import SELECTION
-from upswing.tables import VERDICTS
+from upswing.store.table import read_table
+from upswing.sweeps.names import OF_A_SELECTION, SELECTION
+from upswing.tables import VERDICTS, read_verdicts
 from upswing.yaml_file import read_yaml
 
 FIGURES = ("overview", "step-sizes")
@@ -27,11 +28,13 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     """
     if not (results / VERDICTS).exists():
         raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
+    verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
-        verdicts_of(pd.read_parquet(results / VERDICTS)).to_csv(beside, index=False)
+        verdicts.to_csv(beside, index=False)
     if (results / SELECTION).exists():
+        selection = read_table(results / SELECTION, OF_A_SELECTION, "`make readings` makes it")
         with written(templates / "selection.csv") as beside:
-            pd.read_parquet(results / SELECTION).to_csv(beside, index=False, float_format="%.6g")
+            selection.to_csv(beside, index=False, float_format="%.6g")
     for name in FIGURES:
         source = results / "figures" / f"{name}.png"
         if not source.exists():

@@ -1,21 +1,22 @@
 """Reading a folder of results: the runs of a cell, their windows, the worst, median and best run."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from upswing.config import Study
 from upswing.matrix import Matrix
 from upswing.problems import BadInput
 from upswing.spec import Spec
+from upswing.store.table import read_table
+from upswing.store.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
 from upswing.study import read_study
-from upswing.tables import RUNS
+from upswing.tables import RUNS, read_runs
 
 Real = NDArray[np.float64]
 
@@ -70,11 +71,8 @@ class Results:
     @cached_property
     def runs(self) -> pd.DataFrame:
         """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
-        path = self.folder / RUNS
-        cells = self.cells
-        if not path.exists():
-            raise BadInput([f"{path}: missing; `upswing tables {self.folder}` makes it"])
-        frame = pd.read_parquet(path)
+        path, cells = self.folder / RUNS, self.cells
+        frame = read_runs(self.folder, set(Matrix(self.study).runs))
         frame["cell"] = frame["run"].str.rsplit("/", n=1).str[0]
         there = frame.groupby("cell")["seed"].agg(set).to_dict()
         if incomplete := [
@@ -112,7 +110,20 @@ class Results:
     def in_order(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs, the worst first."""
         order = ORDER_OF_RUNS.get(self.kind(cell), ORDER_OF_RUNS["full-control"])
-        return self.cell(cell).sort_values(list(order), ascending=list(order.values()))
+        runs = self.with_measures(list(order))
+        return runs[runs["cell"] == cell].sort_values(list(order), ascending=list(order.values()))
+
+    def with_measures(self, measures: Sequence[str]) -> pd.DataFrame:
+        """The table of runs; ``BadInput`` if it lacks a measure, or if one is no number."""
+        for name in measures:
+            if name not in self.runs or not pd.api.types.is_numeric_dtype(self.runs[name]):
+                raise BadInput(
+                    [
+                        f"{self.folder / RUNS}: {name}: there is no such column of numbers; "
+                        f"`upswing tables {self.folder}` makes the table anew"
+                    ]
+                )
+        return self.runs
 
     def median_run(self, cell: str) -> OneRun:
         """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
@@ -154,7 +165,5 @@ class Results:
 
     def _read(self, run: str, kind: str) -> pd.DataFrame:
         path = self.folder / "runs" / f"{run}.{kind}.parquet"
-        if not path.exists():
-            raise BadInput([f"{path}: missing; run the study again to make it"])
-        frame: pd.DataFrame = pq.read_table(path).to_pandas()
-        return frame
+        columns = OF_A_TRAJECTORY if kind == "trajectory" else OF_WINDOWS
+        return read_table(path, columns, "run the study again to make it")

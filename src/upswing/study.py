@@ -9,6 +9,7 @@ from pathlib import Path
 from upswing.config import Study, validated
 from upswing.problems import BadInput
 from upswing.store.files import written
+from upswing.store.ledger import seal
 
 FILE = "study.json"
 
@@ -23,6 +24,7 @@ def write_study(text: str, results: Path) -> None:
     study = parse_study(text, "study")
     with written(results / FILE) as beside:
         beside.write_text(json.dumps(study.model_dump(mode="json"), indent=1) + "\n", "utf-8")
+    seal(results, "study", [results / FILE])
 
 
 def read_study(results: Path) -> Study:

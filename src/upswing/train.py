@@ -14,6 +14,7 @@ from safetensors.numpy import save
 
 from upswing import jobs
 from upswing.environment import Trajectory, empty_trajectory
+from upswing.matrix import RUN_FILES
 from upswing.measured import Measures
 from upswing.outcome import outcome_of
 from upswing.recordings.run import write_recording
@@ -23,6 +24,7 @@ from upswing.spec import Spec
 from upswing.store.checksums import checksum
 from upswing.store.files import written
 from upswing.store.kept import keep, take_back
+from upswing.store.ledger import ledger_of_run, seal
 from upswing.store.provenance import metadata, provenance
 from upswing.store.trajectory import write_trajectory, write_windows
 
@@ -54,12 +56,14 @@ def train(spec: Spec, results: Path) -> None:
         place = results / "runs" / one.run(seed)
         if take_back(results, one.run(seed), _identity(one), place.parent):
             print("  was finished before, when another run of its job failed", flush=True)
+            _seal(one, results)
             finished.append(one)
             continue
         try:
             run = learn(one, seed, trajectory)
             with _all_or_none(place):
                 measures = _store(one, seed, run, results)
+                _seal(one, results)
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
             failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
             print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
@@ -92,6 +96,14 @@ def _identity(one: Spec) -> str:
     return f"{jobs.training(one.architecture, one.task.kind).fingerprint} {one.canonical()}"
 
 
+def _seal(one: Spec, results: Path) -> None:
+    """Keep the checksums of a run's files, and what they are of, where neither can change the other."""
+    run = one.run(one.seeds[0])
+    files = [results / "runs" / f"{run}.{kind}" for kind in RUN_FILES]
+    code = jobs.training(one.architecture, one.task.kind).fingerprint
+    seal(results, ledger_of_run(run), files, spec=one.canonical(), code=code)
+
+
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
     """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
     setting = prepare(spec, seed)
@@ -112,7 +124,11 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     measures, windows, kept, row = outcome_of(spec, seed, run.setting, run.trajectory)
     learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
     place = results / "runs" / spec.run(seed)
-    content: dict[str, Any] = {"spec": spec.canonical(), "run": spec.run(seed)}
+    content: dict[str, Any] = {
+        "spec": spec.canonical(),
+        "run": spec.run(seed),
+        "code": jobs.training(spec.architecture, spec.task.kind).fingerprint,
+    }
     outcome: dict[str, Any] = {
         **row,
         "seconds": run.seconds,

@@ -9,12 +9,16 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from upswing import statistics
-from upswing.claims import Bound, Claim, Part, Verdict, weakest
+from upswing.claims import Bound, Claim, Part, Verdict, canonical_claims, weakest
 from upswing.convergence import PROBLEMS, contracts
 from upswing.problems import BadInput, near
 from upswing.runs import Results
 from upswing.statistics import Estimate
+from upswing.store.ledger import seal
 from upswing.tables import EVIDENCE, VERDICTS, write_table
+
+LEDGER = "verdicts"
+"""The ledger of both tables; it has the claims by which they were judged."""
 
 
 class Evidence(NamedTuple):
@@ -50,11 +54,18 @@ def write_verdicts(results: Path, claims: Mapping[str, Claim]) -> pd.DataFrame:
     """
     found = Results(results)
     found.check_complete()  # whatever the claims ask
-    evidence = [row for name, claim in claims.items() for row in judge(found, name, claim)]
-    verdicts = sum_up(found, claims, evidence)
-    write_table(results / EVIDENCE, pd.DataFrame(evidence))
+    verdicts, evidence = judge_all(found, claims)
+    write_table(results / EVIDENCE, evidence)
     write_table(results / VERDICTS, verdicts)
+    tables = [results / EVIDENCE, results / VERDICTS]
+    seal(results, LEDGER, tables, claims=canonical_claims(claims))
     return verdicts
+
+
+def judge_all(results: Results, claims: Mapping[str, Claim]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """The table of verdicts, and that of the evidence."""
+    evidence = [row for name, claim in claims.items() for row in judge(results, name, claim)]
+    return sum_up(results, claims, evidence), pd.DataFrame(evidence)
 
 
 def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
@@ -203,11 +214,16 @@ def _fulfilled(runs: pd.DataFrame, conditions: Mapping[str, Bound]) -> pd.Series
 def _column(runs: pd.DataFrame, measure: str) -> pd.Series:
     if measure not in runs.columns:
         raise BadInput([f"claims: {measure}: no measure of a run; {near(measure, runs.columns)}"])
+    if not pd.api.types.is_numeric_dtype(runs[measure]):
+        raise BadInput([f"claims: {measure}: is no number in the table of runs"])
     return runs[measure].astype("float64")
 
 
 def _paired(groups: list[pd.DataFrame], measure: str) -> list[NDArray[Any]]:
     """A measure of several cells, by the seeds that all of them have, in the same order."""
+    if measure != "digest":
+        for group in groups:
+            _column(group, measure)  # it is there, and a number
     columns = [group.set_index("seed")[measure] for group in groups]
     seeds = columns[0].index
     for column in columns[1:]:

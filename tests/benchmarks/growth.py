@@ -12,6 +12,7 @@ import pandas as pd
 
 from tests.benchmarks.rivals import ours, specification
 from upswing.report.cost import GROWTH
+from upswing.store.ledger import seal
 from upswing.tables import write_table
 from upswing.train import train
 
@@ -84,6 +85,7 @@ def main() -> int:
     print(frame.to_string())
     (results / "tables").mkdir(parents=True, exist_ok=True)
     write_table(results / GROWTH, frame)
+    seal(results, "growth", [results / GROWTH])
     return 0
 
 

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from tests.benchmarks.rivals import HIDDEN, in_c, in_numpy, in_torch, ours
 from upswing.report.cost import BENCHMARK
+from upswing.store.ledger import seal
 from upswing.tables import write_table
 
 REPETITIONS = 9
@@ -92,6 +93,7 @@ def main() -> int:
     show(frame)
     (results / "tables").mkdir(parents=True, exist_ok=True)
     write_table(results / BENCHMARK, frame)
+    seal(results, "benchmark", [results / BENCHMARK])
     return 0
 
 

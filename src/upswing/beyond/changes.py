@@ -7,32 +7,44 @@ import pandas as pd
 
 from upswing import statistics
 from upswing.beyond.names import CHANGES
-from upswing.bound.names import BOUND
+from upswing.bound.names import BOUND, OF_THE_BOUND
 from upswing.matrix import cells_of
 from upswing.problems import BadInput
 from upswing.runs import Results
 from upswing.spec import Spec
+from upswing.store.ledger import seal
+from upswing.store.table import read_table
 from upswing.success import succeeds
 from upswing.tables import write_table
 
 EVERY_TIME = 0.95
 """The share of upright steps in the last fifth that a learner of full control is asked for."""
 
+MEASURED = (
+    "falls_last_fifth", "upright_share", "first_stable_step", "seconds", "steps", "mean_reward",
+)  # fmt: skip
+
 
 def write_changes(results: Path) -> pd.DataFrame:
     """Write and return ``changes.parquet`` of a folder whose bound is known."""
-    found = Results(results)
-    bound = _bound(results)
-    frame = pd.DataFrame(
+    frame = changes(Results(results))
+    write_table(results / CHANGES, frame)
+    seal(results, "changes", [results / CHANGES])
+    return frame
+
+
+def changes(results: Results) -> pd.DataFrame:
+    """A row for every cell of an experiment that has a title."""
+    bound = _bound(results.folder)
+    results.with_measures(MEASURED)
+    return pd.DataFrame(
         [
-            {"change": experiment.title, **_row(found, found.cells[cell], bound)}
-            for experiment in found.study.experiments
+            {"change": experiment.title, **_row(results, results.cells[cell], bound)}
+            for experiment in results.study.experiments
             if experiment.title
             for cell in cells_of(experiment)
         ]
     )
-    write_table(results / CHANGES, frame)
-    return frame
 
 
 def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any]:
@@ -77,11 +89,13 @@ def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any
 def _bound(results: Path) -> dict[str, float]:
     """What the fastest policy comes to under the study's own conditions, ε = 0.01 included."""
     path = results / BOUND
-    if not path.exists():
-        raise BadInput([f"{path}: missing; `upswing bound {results}` makes it"])
-    frame = pd.read_parquet(path)
+    remedy = f"`upswing bound {results}` makes it"
+    frame = read_table(path, OF_THE_BOUND, remedy)
     rows = frame[(frame["policy"] == "fastest") & frame["quantity"].str.startswith("explored_")]
-    return {
+    found = {
         str(quantity).removeprefix("explored_"): float(value)
         for quantity, value in zip(rows["quantity"], rows["value"], strict=True)
     }
+    if "upright_share" not in found:
+        raise BadInput([f"{path}: explored_upright_share: is not in it; {remedy}"])
+    return found

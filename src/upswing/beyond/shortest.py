@@ -22,6 +22,7 @@ from upswing.measures import UPRIGHT, last_fifth
 from upswing.problems import BadInput
 from upswing.setting import prepare
 from upswing.spec import Spec
+from upswing.store.ledger import seal
 from upswing.tables import write_table
 
 KEPT = ("title", "architecture", "alpha", "discount", "seeds")
@@ -37,6 +38,7 @@ def write_shortest(study: Study, results: Path) -> pd.DataFrame:
     write_table(results / SHORTEST, tried)
     best = chosen(tried)
     write_table(results / CHOSEN, best)
+    seal(results, "shortest", [results / SHORTEST, results / CHOSEN])
     return best
 
 

@@ -1,4 +1,13 @@
-"""Where the tables of the bound stand; light, so that the workflow can read it."""
+"""Where the tables of the bound stand, and what is in them; light, so that the workflow can read it."""
 
 BOUND = "tables/bound.parquet"
 MAPS = "tables/bound_maps.parquet"
+
+OF_THE_BOUND = {
+    "quantity": "text", "value": "number", "unit": "text", "grid": "text", "task": "text",
+    "policy": "text?", "discount": "number", "note": "text",
+}  # fmt: skip
+OF_THE_MAPS = {
+    "angle": "number", "angular_velocity": "number", "time_to_upright": "number", "keepable": "truth",
+}  # fmt: skip
+REMEDY = "`upswing bound` makes it"

@@ -17,6 +17,7 @@ from upswing.bound.solved import Solved, solve
 from upswing.bound.tile_rows import of_tiles
 from upswing.compiled import compiled
 from upswing.pendulum import Pendulum
+from upswing.store.ledger import seal
 from upswing.tables import write_table
 
 GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
@@ -38,6 +39,7 @@ def write_bound(results: Path, grids: Sequence[Grid] | None = None) -> None:
     rows += [*explored_optimal(solved), *of_tiles(solved)]
     write_table(results / BOUND, pd.DataFrame(rows).astype({"discount": "float64"}))
     write_table(results / MAPS, maps(solved))
+    seal(results, "bound", [results / BOUND, results / MAPS])
 
 
 def maps(solved: Solved) -> pd.DataFrame:

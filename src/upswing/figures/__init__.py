@@ -8,6 +8,7 @@ from upswing.figures.declaration import Declaration
 from upswing.loading import load
 from upswing.problems import BadInput, near
 from upswing.store.files import written
+from upswing.store.ledger import seal
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -67,3 +68,7 @@ def draw(name: str, results: Path) -> None:
             "runs": drawing.runs,
         }
         beside.write_text(json.dumps(words, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    seal(
+        results, f"figures/{name}",
+        [place.with_suffix(ending) for ending in (".svg", ".png", ".json")],
+    )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.bound.names import BOUND, MAPS
+from upswing.bound.names import BOUND, MAPS, OF_THE_BOUND, OF_THE_MAPS, REMEDY
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -13,22 +13,30 @@ FIGURE = Declaration(
     "What is possible at all", "§2.4.2", ("C9", "C15"), files=(), tables=(BOUND, MAPS)
 )
 THESIS, FAR_SIGHTED = "0.7", "0.97"
+NEEDED = "lowest_discount_from_hanging"
 
 
 def draw(results: "Results") -> "Drawing":
     """Maps over φ and φ̇: time to upright with what can be caught, and two optimal policies."""
     import numpy as np
-    import pandas as pd
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
+    from upswing.problems import BadInput
+    from upswing.store.table import read_table
 
-    maps = pd.read_parquet(results.folder / MAPS)
-    bound = pd.read_parquet(results.folder / BOUND).set_index("quantity")["value"]
+    policies = {f"action_{discount}": "whole" for discount in (THESIS, FAR_SIGHTED)}
+    maps = read_table(results.folder / MAPS, {**OF_THE_MAPS, **policies}, REMEDY)
+    path = results.folder / BOUND
+    bound = read_table(path, OF_THE_BOUND, REMEDY).set_index("quantity")["value"]
     angles = np.degrees(np.unique(maps["angle"]))
     speeds = np.unique(maps["angular_velocity"])
+    if len(maps) != len(angles) * len(speeds):
+        raise BadInput([f"{results.folder / MAPS}: is no map: it has gaps; {REMEDY}"])
+    if NEEDED not in bound.index:
+        raise BadInput([f"{path}: {NEEDED}: is not in it; {REMEDY}"])
 
     def over(column: str) -> np.ndarray:
         return maps[column].to_numpy().reshape(len(angles), len(speeds)).T.astype(float)
@@ -59,7 +67,7 @@ def draw(results: "Results") -> "Drawing":
         ],
         loc="outside lower right", ncols=3, frameon=False,
     )  # fmt: skip
-    needed = bound.loc[["lowest_discount_from_hanging"]].iloc[-1]  # of the finest grid
+    needed = bound.loc[[NEEDED]].iloc[-1]  # of the finest grid
     caption = (
         "Left: the least time to upright from every state; the white line is the border of the states "
         "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "

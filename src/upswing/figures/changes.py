@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.beyond.names import CHANGES
+from upswing.beyond.names import CHANGES, OF_A_CHANGE, REMEDY
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -19,13 +19,13 @@ ROW = 0.15
 def draw(results: "Results") -> "Drawing":
     """A row for each cell of full control, in groups: its share of successes, its steps to stability."""
     import numpy as np
-    import pandas as pd
 
     from upswing.figures import panels
     from upswing.figures.cells import label
     from upswing.figures.style import WIDTH, subplots
+    from upswing.store.table import read_table
 
-    changes = pd.read_parquet(results.folder / CHANGES)
+    changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
     table = changes[changes["kind"] != "balancing"]
     titles = list(dict.fromkeys(table["change"]))
     palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#56B4E9", "#777777"]

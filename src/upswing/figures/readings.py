@@ -11,8 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from upswing.figures.style import GRID, WIDTH, save, subplots
+from upswing.problems import BadInput
 from upswing.readings import options_of
-from upswing.sweeps.names import READINGS
+from upswing.store.ledger import seal
+from upswing.store.table import read_table
+from upswing.sweeps.names import OF_A_READING, READINGS, REMEDY
 from upswing.sweeps.plan import Sweep, number_of
 
 SHADES = {
@@ -27,12 +30,15 @@ ROW = 0.17
 
 def draw_readings(results: Path, sweeps: Mapping[str, Sweep]) -> list[Path]:
     """Draw ``figures/readings-NAME`` for each sweep that was judged; returns the pictures' paths."""
-    judged = pd.read_parquet(results / READINGS)
+    judged = read_table(results / READINGS, OF_A_READING, REMEDY)
     paths = []
     for name, of in judged.groupby("sweep", sort=False):
+        if name not in sweeps:
+            raise BadInput([f"{results / READINGS}: {name}: is no sweep of this study; {REMEDY}"])
         place = results / "figures" / f"readings-{name}"
         save(draw_sweep(of, sweeps[str(name)]), place)
         paths.append(place.with_suffix(".svg"))
+    seal(results, "figures/readings", [p.with_suffix(e) for p in paths for e in (".svg", ".png")])
     return paths
 
 

@@ -16,7 +16,8 @@ from upswing.recordings.layout import PENDULUM_SIZE, whole_run
 from upswing.runs import Crowd, Results
 from upswing.setting import body_of
 from upswing.store.files import written
-from upswing.tables import VERDICTS
+from upswing.store.ledger import seal
+from upswing.tables import read_verdicts
 
 POINTS = 100
 """A run's line has at most so many points."""
@@ -35,7 +36,7 @@ def task_names(results: Results) -> list[str]:
 
 def claim_names(results: Results) -> list[str]:
     """The claims that there are comparisons of: those that name recordings."""
-    verdicts = pd.read_parquet(results.folder / VERDICTS)
+    verdicts = read_verdicts(results.folder)
     shown = verdicts["recordings"].map(len) == len(RANKS)
     return [str(claim) for claim in verdicts.loc[shown, "claim"]]
 
@@ -51,6 +52,7 @@ def write_comparisons(results: Results) -> list[Path]:
     for claim in claim_names(results):
         paths.append(folder / f"claim-{claim}.rrd")
         write_claim(paths[-1], results, claim)
+    seal(results.folder, "comparisons", paths)
     return paths
 
 
@@ -107,7 +109,7 @@ def write_task(path: Path, results: Results, task: str) -> None:
 
 def write_claim(path: Path, results: Results, claim: str) -> None:
     """The worst, the median and the best run of a claim's cell: how they began and ended."""
-    verdicts = pd.read_parquet(results.folder / VERDICTS).set_index("claim")
+    verdicts = read_verdicts(results.folder).set_index("claim")
     runs = [
         str(p).removeprefix("runs/").removesuffix(".rrd") for p in verdicts["recordings"].loc[claim]
     ]

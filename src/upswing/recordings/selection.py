@@ -7,7 +7,7 @@ import pandas as pd
 from upswing.names import alpha_text
 from upswing.problems import BadInput, near
 from upswing.runs import Results
-from upswing.tables import VERDICTS
+from upswing.tables import read_verdicts
 
 KEYS = ("task", "architecture", "alpha", "seed", "claim")
 
@@ -69,10 +69,7 @@ def _range(item: str) -> list[str]:
 
 def _of_claim(results: Results, claim: str) -> list[str]:
     """The recordings that show a claim: its worst, median and best run."""
-    path = results.folder / VERDICTS
-    if not path.exists():
-        raise BadInput([f"{path}: missing; `upswing verdicts {results.folder}` makes it"])
-    verdicts = pd.read_parquet(path).set_index("claim")
+    verdicts = read_verdicts(results.folder).set_index("claim")
     if claim not in verdicts.index:
         raise BadInput([f"filter: claim={claim}: no such claim; {near(claim, verdicts.index)}"])
     recordings = [str(path) for path in verdicts["recordings"].loc[claim]]

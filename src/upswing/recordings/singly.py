@@ -10,12 +10,10 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import pandas as pd
-
 from upswing.recordings.layout import run_layout
 from upswing.recordings.names import recording_id
 from upswing.runs import Results
-from upswing.tables import VERDICTS
+from upswing.tables import read_verdicts
 
 RECORDINGS, LAYOUTS = "recordings", "layouts"
 """The folders of the scripts, beside the page that loads them."""
@@ -23,7 +21,7 @@ RECORDINGS, LAYOUTS = "recordings", "layouts"
 
 def chosen_runs(results: Results) -> list[str]:
     """The runs that the report shows: those of its figures, and each claim's worst, median and best."""
-    verdicts = pd.read_parquet(results.folder / VERDICTS)
+    verdicts = read_verdicts(results.folder)
     of_claims = [
         str(path).removeprefix("runs/").removesuffix(".rrd")
         for paths in verdicts["recordings"]

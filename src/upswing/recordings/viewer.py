@@ -23,6 +23,7 @@ from upswing.recordings.singly import (
     script_of_run,
 )
 from upswing.runs import Results
+from upswing.store.ledger import seal
 
 FOLDER = "report/viewer"
 
@@ -57,6 +58,7 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
         _write_script(beside, names[-1], script_of_run(results, run))
     shutil.rmtree(folder, ignore_errors=True)
     beside.rename(folder)
+    seal(results.folder, "viewer", [folder])
     return names
 
 

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.beyond.names import CHANGES, CHOSEN, FOLDER
-from upswing.bound.names import BOUND
+from upswing.beyond.names import CHANGES, CHOSEN, FOLDER, OF_A_CHANGE, OF_THE_CHOSEN, REMEDY
+from upswing.bound.names import BOUND, OF_THE_BOUND
+from upswing.store.table import read_table
 
 Row = dict[str, Any]
 
@@ -23,10 +24,10 @@ def chapter(results: Path) -> Row:
                 "own": folder == results,
                 "folder": folder,
                 "base": base,
-                "changes": _groups(pd.read_parquet(folder / CHANGES)),
-                "bound": _bound(pd.read_parquet(folder / BOUND)),
-                "optimal": _optimal(pd.read_parquet(folder / BOUND)),
-                "chosen": _rows(pd.read_parquet(folder / CHOSEN))
+                "changes": _groups(read_table(folder / CHANGES, OF_A_CHANGE, REMEDY)),
+                "bound": _bound(read_table(folder / BOUND, OF_THE_BOUND, REMEDY)),
+                "optimal": _optimal(read_table(folder / BOUND, OF_THE_BOUND, REMEDY)),
+                "chosen": _rows(read_table(folder / CHOSEN, OF_THE_CHOSEN, REMEDY))
                 if (folder / CHOSEN).exists()
                 else [],
             }

@@ -11,6 +11,14 @@ BENCHMARK = "tables/benchmark.parquet"
 GROWTH = "tables/growth.parquet"
 """Where `make bench-growth` does."""
 
+OF_A_BENCHMARK = {
+    "learner": "text", "program": "text", "least": "number", "ratio": "number", "ratio_low": "number",
+    "ratio_high": "number", "target": "number", "met": "truth?", "repetitions": "whole",
+}  # fmt: skip
+OF_GROWTH = {
+    "grows": "text", "to": "whole", "seconds": "number", "cpu_seconds": "number", "megabytes": "number",
+}  # fmt: skip
+
 NOT_STUDY = ("sweep", "readings")
 """Rules of ``make readings``, which is not the study itself."""
 

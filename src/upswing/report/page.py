@@ -7,25 +7,45 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedError
 from markupsafe import Markup
 
 from upswing import figures
 from upswing.claims import WEAKEST_FIRST
 from upswing.config import Study
+from upswing.matrix import Matrix
 from upswing.pendulum import Pendulum
 from upswing.policies import source_of
 from upswing.problems import BadInput
 from upswing.readings import Readings
 from upswing.report import words
 from upswing.report.chapter import chapter
-from upswing.report.cost import BENCHMARK, GROWTH, costs, totals
+from upswing.report.cost import (
+    BENCHMARK,
+    GROWTH,
+    OF_A_BENCHMARK,
+    OF_GROWTH,
+    costs,
+    totals,
+)
 from upswing.report.scale import strip
 from upswing.store.files import written
+from upswing.store.ledger import seal
 from upswing.store.provenance import provenance
+from upswing.store.table import Columns, read_table
 from upswing.study import read_study
-from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
-from upswing.tables import CELLS, EVIDENCE, RUNS, VERDICTS
+from upswing.sweeps.names import (
+    DECISIVE,
+    OF_A_CAUSE,
+    OF_A_READING,
+    OF_A_SELECTION,
+    OF_A_SUMMARY,
+    READINGS,
+    REMEDY,
+    ROBUST,
+    SELECTION,
+)
+from upswing.tables import EVIDENCE, read_cells, read_evidence, read_runs, read_verdicts
 from upswing.yaml_file import read_yaml
 
 PAGE = "report/index.html"
@@ -35,6 +55,14 @@ CAUSES, LIKELIEST = 3, 8
 """So many readings that decide a claim, and so many of the most likely ones, are shown."""
 
 Row = dict[str, Any]
+
+OF_A_SHOWN_RUN: Columns = {
+    "task": "text", "architecture": "text", "alpha": "number", "seconds": "number",
+    "steps_per_second": "number", "falls": "number", "falls_last_fifth": "number",
+    "upright_share": "number", "above_horizontal_share": "number", "mean_reward": "number",
+    "first_stable_step": "whole?", "greedy_success_share": "number",
+}  # fmt: skip
+"""What the page shows of each run, besides which it is."""
 
 
 def write_report(results: Path, templates: Path) -> None:
@@ -50,37 +78,48 @@ def write_report(results: Path, templates: Path) -> None:
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     environment.filters.update(words.FILTERS, source_of=source_of)
-    verdicts = _verdicts(results)
-    cells = _rows(results / CELLS)
-    runs = _rows(results / RUNS)
-    page = environment.get_template("index.html.j2").render(
-        study=study,
-        body=Pendulum(),
-        cells=cells,
-        greedy=_greedy(runs),
-        cell={row["cell"]: row for row in cells},
-        runs=runs,
-        verdicts=verdicts,
-        counts=_counts(verdicts),
-        figures={figure["name"]: figure for figure in _figures(results)},
-        beyond=_beyond(results),
-        readings=_readings(study.readings),
-        swept=_swept(results, study),
-        deviations=read_yaml(templates / "deviations.yaml")["deviations"],
-        costs=costs(results),
-        totals=totals(results, sum(row["seconds"] for row in runs)),
-        benchmark=_rows(results / BENCHMARK) if (results / BENCHMARK).exists() else [],
-        growth=_rows(results / GROWTH) if (results / GROWTH).exists() else [],
-        provenance=provenance(),
-        style=_own(templates / "style.css"),
-        script=_own(templates / "page.js"),
-        drawings={path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))},
-    )
-    for name, table in ((RUNS_CSV, RUNS), (EVIDENCE_CSV, EVIDENCE)):
+    matrix = Matrix(study)
+    evidence = read_evidence(results)
+    verdicts = _verdicts(results, evidence)
+    cells = _rows(read_cells(results, matrix.cells))
+    table = read_runs(results, list(matrix.runs), OF_A_SHOWN_RUN)
+    runs = _rows(table)
+    shown = {
+        "study": study,
+        "body": Pendulum(),
+        "cells": cells,
+        "greedy": _greedy(runs),
+        "cell": {row["cell"]: row for row in cells},
+        "runs": runs,
+        "verdicts": verdicts,
+        "counts": _counts(verdicts),
+        "figures": {figure["name"]: figure for figure in _figures(results)},
+        "beyond": _beyond(results),
+        "readings": _readings(study.readings),
+        "swept": _swept(results, study),
+        "deviations": read_yaml(templates / "deviations.yaml")["deviations"],
+        "costs": costs(results),
+        "totals": totals(results, sum(row["seconds"] for row in runs)),
+        "benchmark": _optional(results / BENCHMARK, OF_A_BENCHMARK, "`make bench` makes it"),
+        "growth": _optional(results / GROWTH, OF_GROWTH, "`make bench-growth` makes it"),
+        "provenance": provenance(),
+        "style": _own(templates / "style.css"),
+        "script": _own(templates / "page.js"),
+        "drawings": {
+            path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))
+        },
+    }
+    try:
+        page = environment.get_template("index.html.j2").render(shown)
+    except UndefinedError as error:  # a table has its columns, but not the rows that the page shows
+        said = f"{results}: the tables lack what the page shows: {error.message}"
+        raise BadInput([f"{said}; `upswing doctor {results}` says which is damaged"]) from None
+    for name, frame in ((RUNS_CSV, table), (EVIDENCE_CSV, evidence)):
         with written(results / name) as beside:
-            pd.read_parquet(results / table).to_csv(beside, index=False)
+            frame.to_csv(beside, index=False)
     with written(results / PAGE) as beside:
         beside.write_text(page, "utf-8")
+    seal(results, "report", [results / name for name in (PAGE, RUNS_CSV, EVIDENCE_CSV)])
 
 
 def _own(path: Path) -> Markup:
@@ -88,28 +127,36 @@ def _own(path: Path) -> Markup:
     return Markup(path.read_text("utf-8"))  # noqa: S704
 
 
-def _rows(path: Path) -> list[Row]:
-    if not path.exists():
-        raise BadInput([f"{path}: missing; `upswing tables` makes it"])
-    return [
-        {str(name): value for name, value in row.items()}
-        for row in pd.read_parquet(path).to_dict("records")
-    ]
+def _rows(frame: pd.DataFrame) -> list[Row]:
+    return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
 
 
-def _verdicts(results: Path) -> list[Row]:
+def _optional(path: Path, columns: Columns, remedy: str) -> list[Row]:
+    """The rows of a table that need not be there."""
+    return _rows(read_table(path, columns, remedy)) if path.exists() else []
+
+
+def _verdicts(results: Path, comparisons: pd.DataFrame) -> list[Row]:
     """Each verdict with its evidence, and each comparison with its strip."""
-    evidence = _rows(results / EVIDENCE)
-    verdicts = _rows(results / VERDICTS)
+    evidence = _rows(comparisons)
+    verdicts = _rows(read_verdicts(results))
     for row in evidence:
         row["strip"] = strip(row)
     for verdict in verdicts:
         own = [row for row in evidence if row["claim"] == verdict["claim"]]
         verdict["evidence"] = own
-        verdict["decisive"] = next(
+        same = [
             row for row in own
             if (row["cells"], row["threshold"]) == (verdict["cells"], verdict["threshold"])
-        )  # fmt: skip
+        ]  # fmt: skip
+        if not same:
+            raise BadInput(
+                [
+                    f"{results / EVIDENCE}: {verdict['claim']}: has no row for its verdict; "
+                    f"`upswing verdicts {results}` makes both tables"
+                ]
+            )
+        verdict["decisive"] = same[0]
         for row in own:
             row["several"] = sum(other["part"] == row["part"] for other in own) > 1
             row["many_cells"] = len(str(row["cells"]).split(" : ")) > 1
@@ -166,10 +213,10 @@ def _swept(results: Path, study: Study) -> Row:
     """What the sweeps over readings came to; empty if they were not run."""
     if not (results / ROBUST).exists():
         return {"robust": []}
-    decisive = _rows(results / DECISIVE)
-    robust = _rows(results / ROBUST)
-    selection = _rows(results / SELECTION) if (results / SELECTION).exists() else []
-    judged = pd.read_parquet(results / READINGS, columns=["sweep", "n"])
+    decisive = _rows(read_table(results / DECISIVE, OF_A_CAUSE, REMEDY, empty=True))
+    robust = _rows(read_table(results / ROBUST, OF_A_SUMMARY, REMEDY))
+    selection = _optional(results / SELECTION, OF_A_SELECTION, REMEDY)
+    judged = read_table(results / READINGS, OF_A_READING, REMEDY)
     return {
         "robust": robust,
         "seeds": int(judged["n"].max()),
@@ -180,9 +227,10 @@ def _swept(results: Path, study: Study) -> Row:
         "pictures": [
             {"name": name, "data": _picture(results / "figures" / f"readings-{name}.svg")}
             for name in judged["sweep"].unique()
+            if (results / "figures" / f"readings-{name}.svg").is_file()
         ],
         "judged": {row["claim"]: row for row in robust},
-        "turning": {claim: _turning(results, claim) for claim in ("C8", "C9")},
+        "turning": {claim: _turning(judged, claim) for claim in ("C8", "C9")},
         "selection": selection[:LIKELIEST],
         "chosen_first": bool(selection)
         and all(getattr(study.readings, name) == selection[0][name] for name in SELECTED),
@@ -190,9 +238,8 @@ def _swept(results: Path, study: Study) -> Row:
     }
 
 
-def _turning(results: Path, claim: str) -> list[str]:
+def _turning(judged: pd.DataFrame, claim: str) -> list[str]:
     """The readings that alone make a claim hold, by its estimates, that does not under the study's."""
-    judged = pd.read_parquet(results / READINGS)
     own = judged[judged["claim"] == claim]
     default = own.loc[own["is_default"], "estimate_holds"]
     if own.empty or default.empty or bool(default.iloc[0]):

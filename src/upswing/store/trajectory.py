@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from upswing.environment import Trajectory
 from upswing.measures import Windows
+from upswing.problems import BadInput
 from upswing.store.files import written
 from upswing.store.provenance import KEY
+from upswing.store.table import Columns
 
 WHOLE_AT_START = 5_000
 """The first steps, kept whole (figures 5 and 7 show them) [steps]."""
@@ -42,6 +44,14 @@ SCHEMA = pa.schema(
 )
 
 WINDOW_COUNTS = ("first_step", "steps", "falls")
+
+OF_A_TRAJECTORY: Columns = {
+    name: {"action": "whole", "step": "whole", "reset": "truth"}.get(name, "number")
+    for name in SCHEMA.names
+}
+OF_WINDOWS: Columns = {
+    name: "whole" if name in WINDOW_COUNTS else "number" for name in Windows._fields
+}
 
 
 def kept_steps(trajectory: Trajectory, first_stable_step: int | None) -> NDArray[np.int64]:
@@ -91,9 +101,22 @@ def write_windows(path: Path, windows: Windows, metadata: dict[bytes, bytes]) ->
 
 
 def read_metadata(path: Path) -> dict[str, Any]:
-    """Our part of a Parquet file's metadata: ``provenance``, ``spec``, ``measures`` and the like."""
-    content: dict[str, Any] = json.loads(pq.read_schema(path).metadata[KEY])
-    return content
+    """Our part of a run's metadata: ``provenance``, ``spec``, ``run`` and the like.
+
+    Raises:
+        BadInput: the file cannot be read, or is not of a run.
+    """
+    try:
+        content = json.loads(pq.read_schema(path).metadata[KEY])
+        of_run = isinstance(content["spec"], str) and isinstance(content["run"], str)
+        if of_run and isinstance(content["provenance"]["packages"], dict):
+            found: dict[str, Any] = content
+            return found
+    except (OSError, pa.ArrowException, KeyError, TypeError, ValueError, RecursionError) as error:
+        said = (str(error).splitlines() or [""])[0]
+        if isinstance(error, OSError | pa.ArrowException):
+            raise BadInput([f"{path}: cannot be read: {said}"]) from None
+    raise BadInput([f"{path}: is not a file of a run: it does not say of which"])
 
 
 def _write(path: Path, table: pa.Table) -> None:

@@ -6,8 +6,9 @@ import pandas as pd
 
 from upswing.config import Study
 from upswing.problems import BadInput
-from upswing.sweeps.plan import Sweep, groups
-from upswing.sweeps.sweep import path_of
+from upswing.store.table import read_table
+from upswing.sweeps.plan import Sweep, canonical_of, groups
+from upswing.sweeps.sweep import OF_A_SWEPT_RUN, path_of
 
 
 def read_sweep(results: Path, name: str, sweep: Sweep, study: Study) -> pd.DataFrame:
@@ -17,4 +18,15 @@ def read_sweep(results: Path, name: str, sweep: Sweep, study: Study) -> pd.DataF
         raise BadInput(
             [f"{missing[0]}: missing ({len(missing)} of {len(paths)}); `make readings` makes them"]
         )
-    return pd.concat([pd.read_parquet(path) for path in paths], ignore_index=True)
+    return pd.concat([_of_group(path, name, sweep, study) for path in paths], ignore_index=True)
+
+
+def _of_group(path: Path, name: str, sweep: Sweep, study: Study) -> pd.DataFrame:
+    """The rows of a group; ``BadInput`` if they are of another sweep."""
+    remedy = "delete it, and `make readings` makes it anew"
+    frame = read_table(path, OF_A_SWEPT_RUN, remedy)
+    known = {group.name: group for group in groups(sweep, study)}[path.stem]
+    asked = {canonical_of(overrides) for overrides in known.members}
+    if set(frame["sweep"]) != {name} or set(frame["readings"]) != asked:
+        raise BadInput([f"{path}: has rows of another sweep or of other readings; {remedy}"])
+    return frame

@@ -7,6 +7,7 @@ import pandas as pd
 
 from upswing.claims import Claim
 from upswing.problems import BadInput
+from upswing.store.ledger import seal
 from upswing.study import read_study
 from upswing.sweeps.names import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.sweeps.plan import Sweep
@@ -37,4 +38,6 @@ def write_readings(
     write_table(results / READINGS, judged)
     write_table(results / DECISIVE, decisive(judged, sweeps))
     write_table(results / ROBUST, robust)
+    tables = [results / table for table in (SELECTION, READINGS, DECISIVE, ROBUST)]
+    seal(results, "readings", [path for path in tables if path.exists()])
     return robust

@@ -8,12 +8,20 @@ import pandas as pd
 
 from upswing.config import Study
 from upswing.environment import Trajectory, empty_trajectory
+from upswing.measured import Measures
 from upswing.outcome import outcome_of
 from upswing.problems import BadInput, near
 from upswing.setting import prepare
 from upswing.spec import Spec
+from upswing.store.ledger import seal
+from upswing.store.table import Columns
 from upswing.sweeps.plan import Sweep, canonical_of, groups, label, specs
-from upswing.tables import NULLABLE, write_table
+from upswing.tables import NULLABLE, OF_A_RUN, write_table
+
+OF_A_SWEPT_RUN: Columns = {
+    **OF_A_RUN, "sweep": "text", "readings": "text", "cell": "text", "task": "text",
+    **dict.fromkeys(Measures._fields, "number"),
+}  # fmt: skip
 
 
 def path_of(results: Path, sweep: str, group: str) -> Path:
@@ -45,6 +53,7 @@ def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str
     path = path_of(results, name, group)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_table(path, pd.DataFrame(rows).astype(NULLABLE))
+    seal(results, f"readings/{name}/{group}", [path])
     return path
 
 
