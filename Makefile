@@ -119,6 +119,7 @@ lint: install ## Check style and formatting
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/snakefmt --check Snakefile workflow
+	@$(BIN)/lint-imports --no-logo
 
 .PHONY: types
 types: install ## Check types

@@ -15,22 +15,22 @@ if find_spec("upswing") is None:
         ".venv/bin/snakemake"
     )
 
-from upswing.beyond.names import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
-from upswing.bound.names import BOUND, MAPS
-from upswing import jobs
-from upswing.check import asked
-from upswing.claims import canonical_claims
+from upswing.analysis.beyond_tables import CHANGES as CHANGED, CHOSEN, FOLDER, SHORTEST
+from upswing.optimal.tables import BOUND, MAPS
+from upswing.study import jobs
+from upswing.study.check import asked
+from upswing.study.claims import canonical_claims
 from upswing.figures import FIGURES, drawable
-from upswing.matrix import (
+from upswing.study.matrix import (
     RUN_FILES,
     Matrix,
     canonical_search,
 )
-from upswing.problems import BadInput
+from upswing.study.errors import BadInput
 from upswing.recordings.names import comparison_names
-from upswing.records import restore
-from upswing.study import canonical
-from upswing.sweeps.plan import content_of, groups
+from upswing.runs.records import restore
+from upswing.runs.study_file import canonical
+from upswing.study.sweeps import content_of, groups
 
 if not workflow.configfiles:
 

@@ -1,21 +1,28 @@
 """What the tests of several files share."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
 
 from tests.helpers import ARCHITECTURES
 from tests.leftovers import _nothing_left_running  # noqa: F401  a fixture of every session
-from upswing.claims import load_claims
-from upswing.config import validated
-from upswing.matrix import Matrix
-from upswing.runs import Results
-from upswing.study import canonical, write_study
-from upswing.tables import write_tables
-from upswing.train import train
-from upswing.verdicts import write_verdicts
+from tests.paths import ROOT
+from upswing.analysis.aggregate import write_tables
+from upswing.analysis.verdicts import write_verdicts
+from upswing.runs.results import Results
+from upswing.runs.study_file import canonical, write_study
+from upswing.runs.train import train
+from upswing.study.claims import load_claims
+from upswing.study.config import validated
+from upswing.study.matrix import Matrix
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+os.chdir(ROOT)  # as the project is used, from whichever folder the tests are run
 
 STUDY = {
     "seeds": 3,
@@ -52,7 +59,7 @@ CHROMIUM = Path("/usr/bin/chromium")
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def browser() -> Iterator["Browser"]:
     """A Chromium without a screen that draws in software."""
     if not CHROMIUM.exists():
         pytest.skip("no Chromium: install Debian's package chromium")
@@ -60,6 +67,8 @@ def browser() -> Iterator[Browser]:
         "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
         "--disable-background-networking", "--disable-component-update",
     ]  # fmt: skip
+    from playwright.sync_api import sync_playwright
+
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=options)
         yield chromium

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.environment import Trajectory, empty_trajectory
-from upswing.readings import Readings
-from upswing.setting import prepare
-from upswing.spec import NamedArchitecture, NamedTask, Spec
+from upswing.physics.environment import Trajectory, empty_trajectory
+from upswing.runs.simulation import prepare
+from upswing.study.readings import Readings
+from upswing.study.spec import NamedArchitecture, NamedTask, Spec
 
 ARCHITECTURES: dict[str, dict[str, Any]] = {
     "table": {"learner": "table"},

@@ -12,9 +12,9 @@ import pandas as pd
 
 from tests.benchmarks.rivals import ours, specification
 from upswing.report.cost import GROWTH
-from upswing.store.ledger import seal
-from upswing.tables import write_table
-from upswing.train import train
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.tables import write_table
+from upswing.runs.train import train
 
 SEEDS = (10, 30, 100)
 STEPS = (100_000, 1_000_000, 10_000_000)

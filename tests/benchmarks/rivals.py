@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import torch
 
-from upswing.environment import empty_trajectory
-from upswing.setting import prepare
-from upswing.spec import NamedArchitecture, NamedTask, Spec
+from upswing.physics.environment import empty_trajectory
+from upswing.runs.simulation import prepare
+from upswing.study.spec import NamedArchitecture, NamedTask, Spec
 
 HIDDEN: dict[str, tuple[int, ...]] = {
     "table": (),
@@ -28,7 +28,7 @@ ACCELERATIONS = np.array([-10.0, 0.0, 10.0])
 
 def specification(learner: str, steps: int, modular: bool = False) -> Spec:
     """Full control as in the thesis: a table with α = 0.001, networks with α = 1."""
-    from upswing.readings import Readings
+    from upswing.study.readings import Readings
 
     hidden = HIDDEN[learner]
     kind = "networks" if hidden else "table"

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from upswing.figures.declaration import Declaration
-from upswing.loading import load
-from upswing.problems import BadInput, near
-from upswing.store.files import written
-from upswing.store.ledger import seal
+from upswing.runs.files.atomic import written
+from upswing.runs.files.ledger import seal
+from upswing.study.errors import BadInput, near
+from upswing.study.loading import load
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -53,7 +53,7 @@ def draw(name: str, results: Path) -> None:
     if name not in FIGURES:
         raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
     from upswing.figures.style import save
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
     declared = FIGURES[name]
     drawing = load("figures", name).draw(Results(results))

@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.bound.names import BOUND, MAPS, OF_THE_BOUND, OF_THE_MAPS, REMEDY
 from upswing.figures.declaration import Declaration
+from upswing.optimal.tables import BOUND, MAPS, OF_THE_BOUND, OF_THE_MAPS, REMEDY
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 FIGURE = Declaration(
     "What is possible at all", "§2.4.2", ("C9", "C15"), files=(), tables=(BOUND, MAPS)
@@ -24,8 +24,8 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
-    from upswing.problems import BadInput
-    from upswing.store.table import read_table
+    from upswing.runs.files.table import read_table
+    from upswing.study.errors import BadInput
 
     policies = {f"action_{discount}": "whole" for discount in (THESIS, FAR_SIGHTED)}
     maps = read_table(results.folder / MAPS, {**OF_THE_MAPS, **policies}, REMEDY)

@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-from upswing import statistics
-from upswing.runs import Results
-from upswing.success import succeeds
+from upswing.analysis import statistics
+from upswing.runs.results import Results
+from upswing.runs.success import succeeds
 
 
 class Share(NamedTuple):

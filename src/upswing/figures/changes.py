@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.beyond.names import CHANGES, OF_A_CHANGE, REMEDY
+from upswing.analysis.beyond_tables import CHANGES, OF_A_CHANGE, REMEDY
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 FIGURE = Declaration(
     "What each change buys", "", ("C8", "C9", "C10", "C12"), files=(), tables=(CHANGES,)
@@ -23,7 +23,7 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.cells import label
     from upswing.figures.style import WIDTH, subplots
-    from upswing.store.table import read_table
+    from upswing.runs.files.table import read_table
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
     table = changes[changes["kind"] != "balancing"]

@@ -7,7 +7,7 @@ from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 CELL = "balancing/table/alpha-1"
 FIGURE = Declaration(

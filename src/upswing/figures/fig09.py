@@ -7,7 +7,7 @@ from upswing.figures.words import CROWD, MEDIAN_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 CELLS = {
     "full-control/networks-30/alpha-1": "160-30-1",

@@ -7,7 +7,7 @@ from upswing.figures.words import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 CELL = "full-control/modular-networks-5/alpha-1"
 SINGLE = "full-control/networks-5/alpha-1"

@@ -6,7 +6,7 @@ from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=())
 WINDOWS = 40
@@ -17,7 +17,7 @@ def draw(results: "Results") -> "Drawing":
     """A panel for each kind of task: the median of every cell, with its quartiles for some."""
     import numpy as np
 
-    from upswing.colours import colour
+    from upswing.analysis.colours import colour
     from upswing.figures import panels
     from upswing.figures.cells import label, share
     from upswing.figures.style import grid_of_panels

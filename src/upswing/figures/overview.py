@@ -6,7 +6,7 @@ from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 FIGURE = Declaration(
     "All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"), files=()
@@ -19,11 +19,11 @@ def draw(results: "Results") -> "Drawing":
     """A row for each cell: a dot a run, and the share of runs that succeed with its interval."""
     import numpy as np
 
-    from upswing.colours import colour
+    from upswing.analysis.colours import colour
     from upswing.figures import panels
     from upswing.figures.cells import label, share
     from upswing.figures.style import WIDTH, subplots
-    from upswing.success import SUCCESS
+    from upswing.runs.success import SUCCESS
 
     tasks: dict[str, list[str]] = {}
     for cell in results.cells:

@@ -9,10 +9,10 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from upswing.colours import colour
+from upswing.analysis.colours import colour
 from upswing.figures.style import grid_of_panels, stack_and_panel
-from upswing.runs import Crowd, OneRun, Real, Results
-from upswing.store.trajectory import THINNED, WHOLE_AT_START
+from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
+from upswing.runs.results import Crowd, OneRun, Real, Results
 
 POINTS = 200
 """A crowd's line has about so many points."""

@@ -10,13 +10,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from upswing.analysis.robustness.tables import OF_A_READING, READINGS, REMEDY
 from upswing.figures.style import GRID, WIDTH, save, subplots
-from upswing.problems import BadInput
-from upswing.readings import options_of
-from upswing.store.ledger import seal
-from upswing.store.table import read_table
-from upswing.sweeps.names import OF_A_READING, READINGS, REMEDY
-from upswing.sweeps.plan import Sweep, number_of
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.table import read_table
+from upswing.study.errors import BadInput
+from upswing.study.readings import options_of
+from upswing.study.sweeps import Sweep, number_of
 
 SHADES = {
     "reproduced": "#0B6B3A",

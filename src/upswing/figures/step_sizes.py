@@ -6,18 +6,18 @@ from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
-    from upswing.runs import Results
+    from upswing.runs.results import Results
 
 FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"), files=())
 
 
 def draw(results: "Results") -> "Drawing":
     """A panel for each task: the share of runs that succeed over α, a line for each architecture."""
-    from upswing.colours import colour
+    from upswing.analysis.colours import colour
     from upswing.figures import panels
     from upswing.figures.cells import share
     from upswing.figures.style import grid_of_panels
-    from upswing.success import SUCCESS
+    from upswing.runs.success import SUCCESS
 
     curves: dict[tuple[str, str], dict[float, str]] = {}
     for cell, spec in results.cells.items():

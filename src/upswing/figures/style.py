@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots as subplots
 
-from upswing.store.files import written
+from upswing.runs.files.atomic import written
 
 WIDTH = 7.2
 """Width of a figure [inch]: a page's text, readable at half of it."""

@@ -9,15 +9,15 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
-from upswing.colours import rgb
-from upswing.pendulum import Pendulum
-from upswing.recordings.frames import DRAWN_EVERY, FRAME, STEP, rounded
-from upswing.recordings.layout import PENDULUM_SIZE, whole_run
-from upswing.runs import Crowd, Results
-from upswing.setting import body_of
-from upswing.store.files import written
-from upswing.store.ledger import seal
-from upswing.tables import read_verdicts
+from upswing.analysis.colours import rgb
+from upswing.physics.pendulum import Pendulum
+from upswing.runs.files.atomic import written
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.tables import read_verdicts
+from upswing.runs.recording.frames import DRAWN_EVERY, FRAME, STEP, rounded
+from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
+from upswing.runs.results import Crowd, Results
+from upswing.runs.simulation import body_of
 
 POINTS = 100
 """A run's line has at most so many points."""

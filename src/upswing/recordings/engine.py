@@ -21,11 +21,11 @@ from urllib.request import urlopen
 
 from platformdirs import user_cache_path
 
-from upswing.processes import running
 from upswing.recordings.names import VIEWER
 from upswing.recordings.ports import LOOPBACK, free_port
+from upswing.recordings.processes import running
 from upswing.recordings.singly import compressed
-from upswing.store.files import written
+from upswing.runs.files.atomic import written
 
 PATIENCE = 20.0
 """The viewer's own server has so long to start [s]."""

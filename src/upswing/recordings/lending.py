@@ -20,10 +20,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.parse import unquote, urlsplit
 
-from upswing.recordings.names import recording_id
 from upswing.recordings.ports import LOOPBACK
 from upswing.recordings.singly import LAYOUTS, RECORDINGS, script_of_layout, script_of_run
-from upswing.runs import Results
+from upswing.runs.results import Results
+from upswing.study.ids import recording_id
 
 PORT = 9873
 """Where the report is served, if nobody else is there."""

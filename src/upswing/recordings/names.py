@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from upswing.claims import Claim
-    from upswing.spec import Spec
+    from upswing.study.claims import Claim
+    from upswing.study.spec import Spec
 
 
 def _viewer() -> Path:
@@ -22,11 +22,6 @@ def _viewer() -> Path:
 
 VIEWER = _viewer()
 """Rerun's program itself. ``bin/rerun`` starts it as a second process, which outlives the first."""
-
-
-def recording_id(run: str) -> str:
-    """The id of a run's recording; the viewer takes letters, digits, ``_`` and ``-`` only."""
-    return run.replace("/", "_").replace(".", "-")
 
 
 def comparison_names(claims: "Mapping[str, Claim]", cells: "Mapping[str, Spec]") -> list[str]:

@@ -2,7 +2,7 @@
 
 import socket
 
-from upswing.problems import BadInput
+from upswing.study.errors import BadInput
 
 LOOPBACK = "127.0.0.1"
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from PIL import Image
 
-from upswing.processes import running
-from upswing.recordings.browse import catalog
-from upswing.recordings.layout import run_layout
+from upswing.recordings.catalog import catalog
 from upswing.recordings.names import VIEWER
 from upswing.recordings.ports import LOOPBACK, free_port, listens
-from upswing.runs import Results
-from upswing.store.files import written
+from upswing.recordings.processes import running
+from upswing.runs.files.atomic import written
+from upswing.runs.recording.layout import run_layout
+from upswing.runs.results import Results
 
 if TYPE_CHECKING:
     from rerun.experimental import ViewerClient

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 
 import pandas as pd
 
-from upswing.names import alpha_text
-from upswing.problems import BadInput, near
-from upswing.runs import Results
-from upswing.tables import read_verdicts
+from upswing.runs.files.tables import read_verdicts
+from upswing.runs.results import Results
+from upswing.study.errors import BadInput, near
+from upswing.study.names import alpha_text
 
 KEYS = ("task", "architecture", "alpha", "seed", "claim")
 

@@ -10,10 +10,10 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from upswing.recordings.layout import run_layout
-from upswing.recordings.names import recording_id
-from upswing.runs import Results
-from upswing.tables import read_verdicts
+from upswing.runs.files.tables import read_verdicts
+from upswing.runs.recording.layout import run_layout
+from upswing.runs.results import Results
+from upswing.study.ids import recording_id
 
 RECORDINGS, LAYOUTS = "recordings", "layouts"
 """The folders of the scripts, beside the page that loads them."""

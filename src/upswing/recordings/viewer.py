@@ -9,10 +9,9 @@ import gzip
 import shutil
 from pathlib import Path
 
-from upswing.policies import with_hashes
 from upswing.recordings.comparison import claim_names, task_names
 from upswing.recordings.engine import engine
-from upswing.recordings.names import recording_id
+from upswing.recordings.policies import with_hashes
 from upswing.recordings.singly import (
     LAYOUTS,
     RECORDINGS,
@@ -22,8 +21,9 @@ from upswing.recordings.singly import (
     script_of_layout,
     script_of_run,
 )
-from upswing.runs import Results
-from upswing.store.ledger import seal
+from upswing.runs.files.ledger import seal
+from upswing.runs.results import Results
+from upswing.study.ids import recording_id
 
 FOLDER = "report/viewer"
 

@@ -6,9 +6,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.beyond.names import CHANGES, CHOSEN, FOLDER, OF_A_CHANGE, OF_THE_CHOSEN, REMEDY
-from upswing.bound.names import BOUND, OF_THE_BOUND
-from upswing.store.table import read_table
+from upswing.analysis.beyond_tables import (
+    CHANGES,
+    CHOSEN,
+    FOLDER,
+    OF_A_CHANGE,
+    OF_THE_CHOSEN,
+    REMEDY,
+)
+from upswing.optimal.tables import BOUND, OF_THE_BOUND
+from upswing.runs.files.table import read_table
 
 Row = dict[str, Any]
 

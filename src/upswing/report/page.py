@@ -11,13 +11,19 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
-from upswing.claims import WEAKEST_FIRST
-from upswing.config import Study
-from upswing.matrix import Matrix
-from upswing.pendulum import Pendulum
-from upswing.policies import source_of
-from upswing.problems import BadInput
-from upswing.readings import Readings
+from upswing.analysis.robustness.tables import (
+    DECISIVE,
+    OF_A_CAUSE,
+    OF_A_READING,
+    OF_A_SELECTION,
+    OF_A_SUMMARY,
+    READINGS,
+    REMEDY,
+    ROBUST,
+    SELECTION,
+)
+from upswing.physics.pendulum import Pendulum
+from upswing.recordings.policies import source_of
 from upswing.report import words
 from upswing.report.chapter import chapter
 from upswing.report.cost import (
@@ -29,24 +35,18 @@ from upswing.report.cost import (
     totals,
 )
 from upswing.report.scale import strip
-from upswing.store.files import written
-from upswing.store.ledger import seal
-from upswing.store.provenance import provenance
-from upswing.store.table import Columns, read_table
-from upswing.study import read_study
-from upswing.sweeps.names import (
-    DECISIVE,
-    OF_A_CAUSE,
-    OF_A_READING,
-    OF_A_SELECTION,
-    OF_A_SUMMARY,
-    READINGS,
-    REMEDY,
-    ROBUST,
-    SELECTION,
-)
-from upswing.tables import EVIDENCE, read_cells, read_evidence, read_runs, read_verdicts
-from upswing.yaml_file import read_yaml
+from upswing.runs.files.atomic import written
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.provenance import provenance
+from upswing.runs.files.table import Columns, read_table
+from upswing.runs.files.tables import EVIDENCE, read_cells, read_evidence, read_runs, read_verdicts
+from upswing.runs.study_file import read_study
+from upswing.study.claims import WEAKEST_FIRST
+from upswing.study.config import Study
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
+from upswing.study.readings import Readings
+from upswing.study.yaml_file import read_yaml
 
 PAGE = "report/index.html"
 RUNS_CSV, EVIDENCE_CSV = "report/runs.csv", "report/evidence.csv"

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.claims import words_of
-from upswing.names import alpha_text
-from upswing.recordings.names import recording_id
+from upswing.study.claims import words_of
+from upswing.study.ids import recording_id
+from upswing.study.names import alpha_text
 
 UNKNOWN = "–"
 

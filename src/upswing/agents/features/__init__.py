@@ -1,0 +1,73 @@
+"""Codings: what of a state (φ, φ̇) a learner is told (§3.3).
+
+A coding is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
+``locate``, which answers with a place, and has a function ``create`` that makes one for a run. Codings
+are imported by name, as learners are.
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Protocol
+
+from upswing.physics.jit import ByType
+from upswing.study.loading import load
+from upswing.study.readings import Readings
+
+
+class Place(NamedTuple):
+    """A state as tiles: the module that owns it, and the tiles of that module that it lies in."""
+
+    module: int
+    tiles: tuple[int, ...]  # as many for every state of a coding
+
+
+class Point(NamedTuple):
+    """A state as it is, for learners that need no tiles."""
+
+    module: int
+    angle: float  # φ [rad]
+    angular_velocity: float  # φ̇ [rad/s]
+
+
+class Coding(Protocol):
+    """A coding outside the loop."""
+
+    def __hash__(self) -> int: ...
+
+    @property
+    def modules(self) -> int:
+        """How many learners share the state space."""
+
+    @property
+    def tiles(self) -> int:
+        """How many tiles a module has in all; 0 where states are told as they are."""
+
+    @property
+    def picture(self) -> tuple[int, int, float]:
+        """Parts of φ, parts of φ̇, and the limit of φ [rad] of a picture of what was learned.
+
+        The picture asks ``locate`` at the middle of equal parts, whatever shape the tiles have.
+        """
+
+
+def _locate(coding: Any, angle: float, angular_velocity: float) -> Any:
+    """The place of φ [rad] and φ̇ [rad/s]."""
+    raise TypeError(f"{type(coding)} is no coding")
+
+
+_locate_by_type = ByType(_locate)
+locate = _locate_by_type.call
+locate_in = _locate_by_type.register
+
+
+class Plan(NamedTuple):
+    """What a coding is made from."""
+
+    kind: str  # of the task
+    options: Mapping[str, Any]  # of the architecture
+    readings: Readings
+
+
+def create(name: str, plan: Plan) -> Coding:
+    """A coding, by the name of its file in this folder."""
+    coding: Coding = load("codings", name).create(plan)
+    return coding

@@ -1,0 +1,40 @@
+"""The state itself, without tiles: sine and cosine of φ, and φ̇ (§3.3 asks what else there is)."""
+
+from typing import NamedTuple
+
+from upswing.agents.features import Plan, Point, locate_in
+from upswing.agents.features.grid import tiles_for
+
+PICTURE = (40, 40)
+"""Parts of φ and of φ̇ of a picture of what was learned."""
+
+
+class Continuous(NamedTuple):
+    """States as they are."""
+
+    angle_limit: float  # of pictures [rad]
+
+    @property
+    def modules(self) -> int:
+        """One learner."""
+        return 1
+
+    @property
+    def tiles(self) -> int:
+        """There are none."""
+        return 0
+
+    @property
+    def picture(self) -> tuple[int, int, float]:
+        """A grid fine enough to show what a network draws."""
+        return *PICTURE, self.angle_limit
+
+
+@locate_in(Continuous)
+def _locate(continuous: Continuous, angle: float, angular_velocity: float) -> Point:
+    return Point(0, angle, angular_velocity)
+
+
+def create(plan: Plan) -> Continuous:
+    """States of the kind of task."""
+    return Continuous(tiles_for(plan.kind, False, plan.readings).angle_limit)

@@ -1,0 +1,84 @@
+"""Overlapping tilings: eight grids, each shifted by a part of a tile (Sutton and Barto 1998, §8.3.2).
+
+A state lies in one tile of each, so what is learned about it spreads to its neighbourhood, and two
+states that share all tiles of the thesis are told apart.
+"""
+
+from math import floor
+from typing import NamedTuple
+
+import numpy as np
+
+from upswing.agents.features import Place, Plan, locate_in
+from upswing.agents.features.grid import VELOCITY_LIMIT, VELOCITY_PARTS, tiles_for
+from upswing.physics.jit import compiled
+
+TILINGS = 8
+SHIFTS = (1, 3)
+"""By so many eighths of a tile, of φ and of φ̇, the next tiling is shifted: the first odd numbers."""
+
+
+class Tilings(NamedTuple):
+    """Grids over (φ, φ̇) with tiles of the thesis's size, one more of each kind to be shifted into."""
+
+    angle_parts: int  # parts of φ over ± angle_limit, before the shift
+    angle_limit: float  # [rad]
+    round: bool  # whether φ comes round after ± angle_limit
+
+    @property
+    def modules(self) -> int:
+        """One learner."""
+        return 1
+
+    @property
+    def tiles(self) -> int:
+        """Those of all tilings."""
+        return TILINGS * (self.angle_parts + 1) * (VELOCITY_PARTS + 1)
+
+    @property
+    def picture(self) -> tuple[int, int, float]:
+        """Fine enough to show where the tilings' borders are."""
+        return 8 * self.angle_parts, 4 * VELOCITY_PARTS, self.angle_limit
+
+
+@compiled
+def tile_in(tilings: Tilings, tiling: int, angle: float, angular_velocity: float) -> int:
+    """The tile of one tiling that holds a state; what lies outside is counted to the edge."""
+    parts = tilings.angle_parts
+    across = (angle + tilings.angle_limit) / (2 * tilings.angle_limit) * parts
+    if angle < tilings.angle_limit:
+        # Just below the limit the quotient may round up to the limit itself.
+        across = min(across, np.nextafter(float(parts), 0.0))
+    up = (angular_velocity + VELOCITY_LIMIT) / (2 * VELOCITY_LIMIT) * VELOCITY_PARTS
+    shift_across = (SHIFTS[0] * tiling) % TILINGS / TILINGS
+    shift_up = (SHIFTS[1] * tiling) % TILINGS / TILINGS
+    row = floor(across + shift_across)
+    # On a whole circle the last part continues in the first.
+    row = row % parts if tilings.round else min(max(row, 0), parts)
+    column = min(max(floor(up + shift_up), 0), VELOCITY_PARTS)
+    return int((tiling * (parts + 1) + row) * (VELOCITY_PARTS + 1) + column)
+
+
+@locate_in(Tilings)
+def _locate(tilings: Tilings, angle: float, angular_velocity: float) -> Place:
+    return Place(
+        0,
+        (
+            tile_in(tilings, 0, angle, angular_velocity),
+            tile_in(tilings, 1, angle, angular_velocity),
+            tile_in(tilings, 2, angle, angular_velocity),
+            tile_in(tilings, 3, angle, angular_velocity),
+            tile_in(tilings, 4, angle, angular_velocity),
+            tile_in(tilings, 5, angle, angular_velocity),
+            tile_in(tilings, 6, angle, angular_velocity),
+            tile_in(tilings, 7, angle, angular_velocity),
+        ),
+    )
+
+
+def create(plan: Plan) -> Tilings:
+    """Tilings of the task's own grid."""
+    grid = tiles_for(plan.kind, False, plan.readings)
+    whole_circle = plan.kind != "balancing" and plan.readings.wrap == "wrapped"
+    comes_round = whole_circle and plan.readings.angle_unit == "half_turn"
+    return Tilings(grid.angle_parts, grid.angle_limit, comes_round)

@@ -1,0 +1,74 @@
+"""Learners: what holds Q, how it is read, and how one update changes it.
+
+A learner is a named tuple of arrays with a leading axis for modules (1 when there are none), so
+that the loop can step it in place. Its file gives a body to the two functions below, and has a
+function ``create`` that makes one for a run; the loop needs to know no more. Learners are imported
+by name, so that a table never waits for torch.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.agents.features import Coding
+from upswing.agents.policy import Q
+from upswing.physics.jit import ByType
+from upswing.study.loading import load
+from upswing.study.readings import Readings
+
+Array = NDArray[np.float64]
+
+
+def _values(learner: Any, place: Any) -> Q:
+    """Q(s, a) of the three actions, of a state in the coding that the learner was made for."""
+    raise TypeError(f"{type(learner)} is no learner")
+
+
+def _update(learner: Any, place: Any, action: int, error: float) -> None:
+    """Move Q(s, a) by the error signal α·δ (eq. 12)."""
+
+
+_values_by_type = ByType(_values)
+_update_by_type = ByType(_update)
+
+values = _values_by_type.call
+update = _update_by_type.call
+values_of = _values_by_type.register
+update_of = _update_by_type.register
+
+
+class Beginning(NamedTuple):
+    """What a learner is made from."""
+
+    coding: Coding
+    options: Mapping[str, Any]  # of the architecture, as in the configuration
+    readings: Readings
+    lowest_q: float  # the smallest discounted return there can be, for a pessimistic first Q
+    weights: np.random.Generator  # the stream of the first values or weights
+
+
+class Learner(Protocol):
+    """A learner outside the loop."""
+
+    @property
+    def stepped(self) -> NamedTuple:
+        """The arrays that the loop steps in place."""
+
+    @property
+    def learned(self) -> Mapping[str, NDArray[Any]]:
+        """What was learned, by name; the names and shapes of the weights file."""
+
+    def action_values(self, places: Sequence[Any]) -> Array:
+        """Q of every action at ``places`` of the coding, shape (places, actions)."""
+
+    @property
+    def epsilon(self) -> float | None:
+        """The share of random actions, where it is the learner's own and not the study's."""
+
+
+def create(name: str, beginning: Beginning) -> Learner:
+    """A fresh learner of the family ``name``, the name of a file in this folder."""
+    learner: Learner = load("learners", name).create(beginning)
+    return learner

@@ -1,0 +1,103 @@
+"""Backpropagation through one hidden layer from the state as it is, without tiles (§3.3).
+
+The inputs are sine and cosine of φ, so that it may come round, and φ̇ in units of the grid's limit.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.agents.features import Point
+from upswing.agents.features.grid import VELOCITY_LIMIT
+from upswing.agents.learners import Array, update_of, values_of
+from upswing.agents.learners.backpropagation.logistic import logistic
+from upswing.agents.policy import Q
+from upswing.physics.elementary import sine_and_cosine
+from upswing.physics.jit import inlined
+
+INPUTS = 3
+
+
+class Dense(NamedTuple):
+    """The memory of networks with one hidden layer, one for each action."""
+
+    input_weights: Array  # w: (modules, actions, INPUTS, hidden)
+    hidden_bias: Array  # b: (modules, actions, hidden)
+    output_weights: Array  # v: (modules, actions, hidden)
+    output_bias: Array  # c: (modules, actions)
+    learns_hidden_bias: bool
+    learns_output_bias: bool
+    learning_rate: float  # η
+
+
+def dense(
+    weights: Sequence[NDArray[Any]], biases: Mapping[int, NDArray[Any]], learning_rate: float
+) -> Dense:
+    """The stepped form of layers ``weights`` and ``biases``, sharing their memory."""
+    input_weights, output_weights = weights
+    modules, actions, _, hidden = input_weights.shape
+    return Dense(
+        input_weights=input_weights,
+        hidden_bias=biases.get(0, np.zeros((modules, actions, hidden))),
+        output_weights=output_weights.reshape(modules, actions, hidden),
+        output_bias=biases.get(1, np.zeros((modules, actions, 1))).reshape(modules, actions),
+        learns_hidden_bias=0 in biases,
+        learns_output_bias=1 in biases,
+        learning_rate=learning_rate,
+    )
+
+
+@inlined
+def inputs(point: Point) -> tuple[float, float, float]:
+    """What the networks are told of a state."""
+    sine, cosine = sine_and_cosine(point.angle)
+    return sine, cosine, point.angular_velocity / VELOCITY_LIMIT
+
+
+@inlined
+def activation(
+    net: Dense, module: int, action: int, j: int, x: tuple[float, float, float]
+) -> float:
+    """What hidden unit ``j`` of a network answers to inputs ``x``."""
+    w = net.input_weights[module, action]
+    potential = (
+        net.hidden_bias[module, action, j] + x[0] * w[0, j] + x[1] * w[1, j] + x[2] * w[2, j]
+    )
+    return logistic(potential)
+
+
+@inlined
+def value(net: Dense, module: int, action: int, x: tuple[float, float, float]) -> float:
+    """Q of one action."""
+    v = net.output_weights[module, action]
+    total = net.output_bias[module, action]
+    for j in range(v.shape[0]):
+        total += v[j] * activation(net, module, action, j, x)
+    return float(total)
+
+
+@values_of(Dense)
+def _values(net: Dense, point: Point) -> Q:
+    x = inputs(point)
+    module = point.module
+    return value(net, module, 0, x), value(net, module, 1, x), value(net, module, 2, x)
+
+
+@update_of(Dense)
+def _update(net: Dense, point: Point, action: int, error: float) -> None:
+    x, module = inputs(point), point.module
+    w, b = net.input_weights[module, action], net.hidden_bias[module, action]
+    v = net.output_weights[module, action]
+    change = net.learning_rate * error
+    for j in range(v.shape[0]):
+        h = activation(net, module, action, j, x)
+        hidden_change = change * v[j] * h * (1.0 - h)
+        v[j] += change * h
+        for i in range(INPUTS):
+            w[i, j] += hidden_change * x[i]
+        if net.learns_hidden_bias:
+            b[j] += hidden_change
+    if net.learns_output_bias:
+        net.output_bias[module, action] += change

@@ -1,0 +1,49 @@
+"""The two controls: no learning, always the same way of acting (C7)."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.agents.learners import Array, Beginning, update_of, values_of
+from upswing.agents.policy import Q
+from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+
+
+class Control(NamedTuple):
+    """Fixed values, the same in every state."""
+
+    preference: Array  # (actions,)
+
+
+@values_of(Control)
+def _values(control: Control, place: Any) -> Q:
+    return control.preference[0], control.preference[1], control.preference[2]
+
+
+@update_of(Control)
+def _update(control: Control, place: Any, action: int, error: float) -> None:
+    pass
+
+
+class ControlLearner:
+    """`idle` never accelerates the cart; `random` takes every action equally often."""
+
+    def __init__(self, behaviour: str) -> None:
+        self.epsilon = {"idle": 0.0, "random": 1.0}[behaviour]
+        self.stepped = Control(-np.abs(np.array(ACCELERATIONS)))
+
+    @property
+    def learned(self) -> Mapping[str, NDArray[Any]]:
+        """Nothing is learned; ``preference`` is what the control began and ended with."""
+        return {"preference": self.stepped.preference}
+
+    def action_values(self, places: Sequence[Any]) -> Array:
+        """The preference, the same in every state."""
+        return np.broadcast_to(self.stepped.preference, (len(places), ACTIONS))
+
+
+def create(beginning: Beginning) -> ControlLearner:
+    """The control that the option ``behaviour`` names."""
+    return ControlLearner(beginning.options["behaviour"])

@@ -1,0 +1,280 @@
+"""A deep Q-network (Mnih et al., 2015), what came after the thesis: a yardstick for its networks.
+
+One network of rectified linear units for all actions, learning by Adam from minibatches out of a
+replay memory, towards a copy of itself that is renewed now and then. torch owns it and learns; the
+compiled part acts with the same memory, and records what the loop of ``loop.py`` would.
+
+It decides every ``HOLD`` steps and after a fall, and learns from decisions; the environment knows
+nothing of that. A decision is held for k ≤ ``HOLD`` steps (fewer around a fall), and so its target is
+r₁ + γ r₂ + … + γᵏ⁻¹ rₖ + γᵏ max Q(s′, a′): Q-learning of a semi-Markov problem, with the study's γ.
+
+A run is the same again on the same machine; torch's sums may differ from processor to processor.
+"""
+
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
+from itertools import pairwise
+from math import nan, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+
+from upswing.agents.features import Point
+from upswing.agents.learners import Array, Beginning, values, values_of
+from upswing.agents.learners.backpropagation.dense import INPUTS, inputs
+from upswing.agents.policy import Q, Rule, epsilon_greedy
+from upswing.physics.environment import State, record, transition
+from upswing.physics.jit import compiled
+from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import ACTIONS, Task
+
+HOLD = 4
+"""Steps that a decision is held: 20 ms. With 1 a run swung up too, yet in the end only from 10 of 16
+starts without exploring."""
+
+CAPACITY = 50_000
+"""Decisions that are remembered: those of 200,000 steps, so that none of such a run is forgotten."""
+
+BATCH = 64
+"""Decisions that are learned from at once."""
+
+FIRST_UPDATE = 1_000
+"""Steps before the first update, that a minibatch be more than one swing."""
+
+UPDATE_EVERY = 8
+"""Steps between two updates. With 16 a run takes half the time; one of three then never swung up."""
+
+RENEW_EVERY = 250
+"""Updates between two renewals of the target network: 10 s of the pendulum."""
+
+UNIT = 0.03
+"""The network's own unit of Q, as a share of the largest |Q| there can be: it says which errors the
+Huber loss takes for small. With 0.01 three of three runs took longer to solve full control."""
+
+
+class QNetwork(nn.Module):
+    """Layers of (inputs, outputs) weights and (outputs,) biases; rectified but for the last."""
+
+    def __init__(self, sizes: tuple[int, ...], unit: float) -> None:
+        super().__init__()
+        shapes = list(pairwise(sizes))
+        self.weights = nn.ParameterList(torch.zeros(s, dtype=torch.float64) for s in shapes)
+        self.biases = nn.ParameterList(torch.zeros(s[1], dtype=torch.float64) for s in shapes)
+        self.unit: Tensor
+        self.register_buffer("unit", torch.tensor(unit, dtype=torch.float64))
+
+    def forward(self, states: Tensor) -> Tensor:
+        """Q [R3's unit, in units of ``unit``] of ``states`` (states, INPUTS): (states, actions)."""
+        signal = states
+        for layer, (weights, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
+            signal = torch.addmm(bias, signal if layer == 0 else torch.relu(signal), weights)
+        return signal
+
+
+class DeepQ(NamedTuple):
+    """The memory of the network, and room for its signals."""
+
+    weights: tuple[Array, ...]  # (inputs, outputs) of each layer
+    biases: tuple[Array, ...]  # (outputs,)
+    unit: float
+    signals: Array  # (layers + 1, widest)
+
+
+class Replay(NamedTuple):
+    """Decisions, the latest over the oldest; and in ``open`` the one that is still going on."""
+
+    states: Array  # inputs of s: (capacity, INPUTS)
+    actions: NDArray[np.int64]  # a
+    rewards: Array  # r₁ + γ r₂ + …, in R3's unit
+    next_states: Array  # inputs of s′: (capacity, INPUTS)
+    discounts: Array  # γᵏ; 0 where nothing follows
+    stored: NDArray[np.int64]  # (1,): how many there have been
+    open: Array  # inputs of s, rewards so far, γᵏ so far: (INPUTS + 2,)
+
+
+@values_of(DeepQ)
+def _values(net: DeepQ, point: Point) -> Q:
+    signals, layers = net.signals, len(net.weights)
+    signals[0, 0], signals[0, 1], signals[0, 2] = inputs(point)
+    for layer in range(layers):
+        weights, bias = net.weights[layer], net.biases[layer]
+        told, answer = signals[layer], signals[layer + 1]
+        for j in range(bias.shape[0]):
+            answer[j] = bias[j]
+        for i in range(weights.shape[0]):
+            signal = told[i]
+            if layer == 0 or signal > 0.0:  # a rectified unit that is silent tells nothing
+                for j in range(bias.shape[0]):
+                    answer[j] += signal * weights[i, j]
+    q = signals[layers]
+    return net.unit * q[0], net.unit * q[1], net.unit * q[2]
+
+
+@compiled
+def begin(replay: Replay, point: Point) -> None:
+    """A decision is taken at ``point``."""
+    now = replay.open
+    now[0], now[1], now[2] = inputs(point)
+    now[INPUTS], now[INPUTS + 1] = 0.0, 1.0
+
+
+@compiled
+def collect(replay: Replay, amount: float, discount: float) -> None:
+    """One step of the decision is over: r in R3's unit, and γ."""
+    now = replay.open
+    now[INPUTS] += now[INPUTS + 1] * amount
+    now[INPUTS + 1] *= discount
+
+
+@compiled
+def end(replay: Replay, action: int, point: Point, terminal: bool) -> None:
+    """The decision for ``action`` led to ``point``: remember it."""
+    row = replay.stored[0] % replay.actions.shape[0]
+    for i in range(INPUTS):
+        replay.states[row, i] = replay.open[i]
+    replay.actions[row] = action
+    replay.rewards[row] = replay.open[INPUTS]
+    after = replay.next_states[row]
+    after[0], after[1], after[2] = inputs(point)
+    replay.discounts[row] = 0.0 if terminal else replay.open[INPUTS + 1]
+    replay.stored[0] += 1
+
+
+def empty_replay(capacity: int) -> Replay:
+    """Room for ``capacity`` decisions."""
+    return Replay(
+        states=np.zeros((capacity, INPUTS)),
+        actions=np.zeros(capacity, dtype=np.int64),
+        rewards=np.zeros(capacity),
+        next_states=np.zeros((capacity, INPUTS)),
+        discounts=np.zeros(capacity),
+        stored=np.zeros(1, dtype=np.int64),
+        open=np.zeros(INPUTS + 2),
+    )
+
+
+def sample(replay: Replay, size: int, draws: np.random.Generator) -> NDArray[np.int64]:
+    """Rows of ``size`` decisions that are remembered, each drawn by itself."""
+    remembered = min(int(replay.stored[0]), len(replay.actions))
+    return draws.integers(remembered, size=size)
+
+
+@compiled
+def act(
+    body: Pendulum, task: Task, net: DeepQ, rule: Rule, replay: Replay, state: State,
+    actions: np.random.Generator, starts: np.random.Generator, trajectory: Any,
+    first: int, last: int,
+) -> State:  # fmt: skip
+    """Act from step ``first`` up to ``last``, recording all but what is learned.
+
+    It records and draws as ``loop.learn`` does. With a step size of 0 nothing is remembered.
+    """
+    remembers = rule.step_size > 0.0
+    for t in range(first, last):
+        draw = actions.random()
+        if t % HOLD == 0 or trajectory.reset[t - 1]:
+            point = Point(0, state.angle, state.angular_velocity)
+            action = epsilon_greedy(values(net, point), rule.epsilon, rule.random_ties, draw)
+            if remembers:
+                begin(replay, point)
+        else:
+            action = int(trajectory.action[t - 1])
+
+        taken = transition(body, task, rule.discount, state, action, starts)
+        if remembers:
+            collect(replay, rule.reward_scale * taken.told, rule.discount)
+            if taken.fell or (t + 1) % HOLD == 0:
+                seen = Point(0, taken.seen.angle, taken.seen.angular_velocity)
+                end(replay, action, seen, taken.terminal)
+        record(trajectory, t, state, action, taken, nan)
+        state = taken.after
+    return state
+
+
+class DqnLearner:
+    """The network, its replay memory, its target and its optimiser."""
+
+    epsilon = None
+
+    def __init__(self, network: QNetwork, draws: np.random.Generator) -> None:
+        torch.set_num_threads(1)  # its matrices are small
+        self.network, self.target, self.draws = network, deepcopy(network), draws
+        self.replay = empty_replay(CAPACITY)
+        self.optimiser = torch.optim.Adam(network.parameters(), fused=True)
+        self.steps = self.updates = 0
+        self.stepped = DeepQ(
+            tuple(parameter.detach().numpy() for parameter in network.weights),
+            tuple(parameter.detach().numpy() for parameter in network.biases),
+            float(network.unit),
+            np.zeros((len(network.weights) + 1, max(max(w.shape) for w in network.weights))),
+        )
+
+    @property
+    def learned(self) -> Mapping[str, NDArray[Any]]:
+        """The network's ``state_dict``."""
+        return {name: tensor.numpy() for name, tensor in self.network.state_dict().items()}
+
+    def action_values(self, places: Sequence[Point]) -> Array:
+        """Q at ``places``, through torch."""
+        states = torch.tensor([inputs(point) for point in places], dtype=torch.float64)
+        with torch.no_grad():
+            return np.asarray((self.network.unit * self.network(states)).numpy())
+
+    def advance(
+        self, body: Pendulum, task: Task, _coding: Any, stepped: DeepQ, _method: Any, rule: Rule,
+        state: State, actions: np.random.Generator, starts: np.random.Generator,
+        trajectory: Any, first: int, last: int,
+    ) -> State:  # fmt: skip
+        """What ``loop.learn`` does, with the learner's own way to learn.
+
+        Where it learned, ``td_error`` is the δ of the minibatch's first decision; elsewhere NaN. With
+        a step size of 0 it only acts. A piece goes on with the action of ``trajectory`` before it.
+        """
+        learns = rule.step_size > 0.0
+        pauses = range(first + UPDATE_EVERY - self.steps % UPDATE_EVERY, last, UPDATE_EVERY)
+        for to in (*pauses, last) if learns else (last,):
+            state = act(
+                body, task, stepped, rule, self.replay, state, actions, starts, trajectory, first, to
+            )  # fmt: skip
+            if learns and to > first:
+                self.steps += to - first
+                if self.steps % UPDATE_EVERY == 0 and self.steps >= FIRST_UPDATE:
+                    errors = self.update(sample(self.replay, BATCH, self.draws), rule.step_size)
+                    trajectory.td_error[to - 1] = errors[0] / rule.reward_scale
+            first = to
+        return state
+
+    def update(self, rows: NDArray[np.int64], step_size: float) -> Array:
+        """Learn from these decisions; their δ in R3's unit, as they were before."""
+        states, chosen, rewards, next_states, discounts = (
+            torch.from_numpy(column[rows]) for column in self.replay[:5]
+        )
+        unit = self.network.unit
+        with torch.no_grad():
+            best = self.target(next_states).amax(1)
+            wanted = rewards / unit + discounts * best
+        q = self.network(states).gather(1, chosen[:, None])[:, 0]
+        self.optimiser.param_groups[0]["lr"] = step_size
+        self.optimiser.zero_grad()
+        # Huber: an error beyond ±1 counts as ±1 (Mnih et al. clip it)
+        nn.functional.smooth_l1_loss(q, wanted).backward()  # type: ignore[no-untyped-call]
+        self.optimiser.step()
+        self.updates += 1
+        if self.updates % RENEW_EVERY == 0:
+            self.target.load_state_dict(self.network.state_dict())
+        return np.asarray((unit * (wanted - q.detach())).numpy())
+
+
+def create(beginning: Beginning) -> DqnLearner:
+    """A network with weights and biases uniform in ± 1/√inputs, as is usual for these units."""
+    sizes = (INPUTS, *beginning.options["hidden"], ACTIONS)
+    network = QNetwork(sizes, -UNIT * beginning.lowest_q)
+    with torch.no_grad():
+        for weights, bias in zip(network.weights, network.biases, strict=True):
+            for parameter in (weights, bias):
+                draws = beginning.weights.uniform(-1, 1, tuple(parameter.shape))
+                parameter.copy_(torch.from_numpy(draws / sqrt(weights.shape[0])))
+    return DqnLearner(network, beginning.weights)

@@ -1,0 +1,106 @@
+"""Runs → one row a run → one row a cell."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing.analysis import statistics
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.tables import CELLS, MEASURES, NULLABLE, RUNS, write_table
+from upswing.runs.files.trajectory import read_metadata
+from upswing.runs.success import SUCCESS
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
+from upswing.study.spec import parse
+
+
+def write_tables(results: Path, matrix: Matrix) -> None:
+    """Write ``runs.parquet`` and ``cells.parquet`` of the runs of ``matrix`` below ``results``.
+
+    Raises:
+        BadInput: runs are missing, or are not those of the matrix; it names them.
+    """
+    runs = collect_runs(results, matrix)
+    write_table(results / RUNS, runs)
+    write_table(results / CELLS, summarise(runs))
+    seal(results, "tables", [results / RUNS, results / CELLS])
+
+
+def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
+    """One row for each run of ``matrix``, in its order."""
+    found, problems = [], []
+    for cell in matrix.cells.values():
+        for seed in cell.seeds:
+            path = results / "runs" / f"{cell.run(seed)}.windows.parquet"
+            try:
+                if not path.exists():
+                    raise BadInput([f"{path}: missing; run the study again to make it"])
+                if (content := read_metadata(path))["spec"] != cell.of_seed(seed).canonical():
+                    raise BadInput([f"{path}: is of another specification: {content['spec']}"])
+                found.append(content)
+            except BadInput as error:
+                problems += error.problems
+    if problems:
+        raise BadInput(problems)
+    return runs_of(found)
+
+
+def runs_of(found: Iterable[dict[str, Any]]) -> pd.DataFrame:
+    """One row for each run, from the metadata of its windows."""
+    return pd.DataFrame([_row(content) for content in found]).astype(NULLABLE)
+
+
+def summarise(runs: pd.DataFrame) -> pd.DataFrame:
+    """One row for each cell of ``runs``, in their order.
+
+    Of every measure mean, median and interquartile mean, each with its 95 % interval (``_low``,
+    ``_high``): how sure the estimate is; and the 5th and 95th percentile of the runs (``_p05``,
+    ``_p95``): how they differ. The time to stability is Kaplan–Meier's, runs that never got there
+    being censored.
+    """
+    rows = []
+    for (task, architecture, alpha), group in runs.groupby(
+        ["task", "architecture", "alpha"], sort=False, dropna=False
+    ):
+        row: dict[str, Any] = {
+            "cell": group["run"].iloc[0].rsplit("/", 1)[0],
+            "task": task,
+            "architecture": architecture,
+            "alpha": alpha,
+            "steps": group["steps"].iloc[0],
+            "runs": len(group),
+            "runs_stable": int(group["first_stable_step"].notna().sum()),
+            "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
+            "runs_upright": int((group["upright_share"] >= SUCCESS).sum()),
+        }
+        times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
+        middle = statistics.median_time(times, float(row["steps"]))
+        for name, value in zip(("median", "low", "high"), middle, strict=True):
+            row[f"first_stable_step_{name}"] = value
+        for measure in MEASURES:
+            for location, estimated in statistics.LOCATIONS.items():
+                estimate = estimated(group[measure].to_numpy())
+                row[f"{measure}_{location}"] = estimate.value
+                row[f"{measure}_{location}_low"] = estimate.low
+                row[f"{measure}_{location}_high"] = estimate.high
+            row[f"{measure}_p05"], row[f"{measure}_p95"] = statistics.spread(
+                group[measure].to_numpy()
+            )
+        row["steps_per_second_median"] = group["steps_per_second"].median()
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _row(found: dict[str, Any]) -> dict[str, Any]:
+    spec = parse(found["spec"])
+    outcome, made = found["outcome"], found["provenance"]
+    return {
+        **spec.columns(spec.seeds[0]),
+        **outcome,
+        "recording": f"runs/{found['run']}.rrd",
+        "git_commit": made["git_commit"],
+        "dirty": made["dirty"],
+        "spec": found["spec"],
+    }

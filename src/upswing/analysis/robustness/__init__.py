@@ -1,0 +1,1 @@
+"""Would another reading have changed the verdict? Sweeps over readings, judged."""

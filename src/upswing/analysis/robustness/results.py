@@ -1,0 +1,43 @@
+"""The tables of the sweeps: ``selection``, ``readings`` and what decides each claim."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pandas as pd
+
+from upswing.analysis.robustness.judging import decisive, robustness, summary
+from upswing.analysis.robustness.read import read_sweep
+from upswing.analysis.robustness.selection import SWEEP, select
+from upswing.analysis.robustness.tables import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.tables import write_table
+from upswing.runs.study_file import read_study
+from upswing.study.claims import Claim
+from upswing.study.errors import BadInput
+from upswing.study.sweeps import Sweep
+
+
+def write_readings(
+    results: Path, sweeps: Mapping[str, Sweep], claims: Mapping[str, Claim]
+) -> pd.DataFrame:
+    """Write the four tables of the sweeps below ``results``; returns that of the claims.
+
+    Raises:
+        BadInput: some of the sweeps' runs are missing.
+    """
+    study = read_study(results)
+    if not sweeps:
+        raise BadInput(
+            [f"{results}: no sweep of the readings fits this study: it lacks their cells"]
+        )
+    runs = {name: read_sweep(results, name, sweep, study) for name, sweep in sweeps.items()}
+    if SWEEP in runs:
+        write_table(results / SELECTION, select(runs[SWEEP]))
+    judged = robustness(sweeps, study, claims, runs)
+    robust = summary(judged)
+    write_table(results / READINGS, judged)
+    write_table(results / DECISIVE, decisive(judged, sweeps))
+    write_table(results / ROBUST, robust)
+    tables = [results / table for table in (SELECTION, READINGS, DECISIVE, ROBUST)]
+    seal(results, "readings", [path for path in tables if path.exists()])
+    return robust

@@ -1,0 +1,1 @@
+"""What moves: the pendulum on its cart, its tasks, and one step of them, whoever acts."""

@@ -1,0 +1,115 @@
+"""Tasks: where a run starts, when it is reset, what is rewarded (§4.3–4.6).
+
+A task is a file of this folder with a function ``create`` that makes one under a reading. Tasks are
+imported by name, as learners are.
+"""
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from upswing.physics.jit import compiled
+from upswing.physics.pendulum import Pendulum, energy
+from upswing.study.loading import load
+from upswing.study.readings import Readings
+
+ACCELERATIONS = (-10.0, 0.0, 10.0)
+"""What the three actions do to the cart [m/s²] (§4.4)."""
+
+ACTIONS = len(ACCELERATIONS)
+HORIZONTAL = pi / 2
+"""The critical angle of §4.5, where the pendulum is horizontal [rad]."""
+
+
+RESET_FALLEN, RESET_TERMINAL, RESET_START = 0, 1, 2  # R7
+RESETS = {"fallen": RESET_FALLEN, "terminal": RESET_TERMINAL, "reset": RESET_START}
+
+
+class Task(NamedTuple):
+    """A task under a reading."""
+
+    start_angle: float  # a run starts uniformly in ± this [rad]
+    start_velocity: float  # … and at an angular velocity uniform in ± this [rad/s] (R8)
+    critical_angle: float  # a run is reset when |φ| passes this [rad]; infinite: never
+    largest_angle: float  # the largest |φ| that is seen [rad], for a pessimistic first Q (R5)
+    wraps: bool  # φ is kept within one turn (R4)
+    rewards_next: bool  # the reward is that of s′, not of s (R9)
+    reset: int  # what s′ of a fall is (R7)
+    velocity_weight: float = 0.0  # beyond the thesis: −w·φ̇² is added to the reward [s²]
+    shaping: float = 0.0  # beyond the thesis: the height of the potential of energy [rad²]
+
+
+RANDOM_START_VELOCITY = 2.0
+"""± [rad/s] under R8 `random`: the two velocity tiles around zero, the finest the coding tells apart."""
+
+
+def start_velocity(readings: Readings) -> float:
+    """Half the range of φ̇ at a start [rad/s] (R8)."""
+    return RANDOM_START_VELOCITY if readings.start_velocity == "random" else 0.0
+
+
+def create(kind: str, readings: Readings) -> Task:
+    """A task, by the name of its file in this folder."""
+    task: Task = load("tasks", kind).create(readings)
+    return task
+
+
+@compiled
+def start(task: Task, starts: np.random.Generator) -> tuple[float, float]:
+    """A start state φ [rad], φ̇ [rad/s]: two draws, whatever the task, so that runs stay paired."""
+    angle = task.start_angle * (2.0 * starts.random() - 1.0)
+    angular_velocity = task.start_velocity * (2.0 * starts.random() - 1.0)
+    return angle, angular_velocity
+
+
+@compiled
+def fallen(task: Task, angle: float) -> bool:
+    """Whether φ [rad] is beyond the critical angle."""
+    return abs(angle) > task.critical_angle
+
+
+@compiled
+def wrapped(angle: float) -> float:
+    """φ [rad] within one turn, −π ≤ φ < π; at most one turn off, as after a single step."""
+    if angle >= pi:
+        return angle - 2 * pi
+    if angle < -pi:
+        return angle + 2 * pi
+    return angle
+
+
+@compiled
+def reward(angle: float) -> float:
+    """−φ² [rad²] (§4.4)."""
+    return -angle * angle
+
+
+@compiled
+def bonus(
+    body: Pendulum,
+    task: Task,
+    discount: float,
+    angle: float,
+    angular_velocity: float,
+    next_angle: float,
+    next_angular_velocity: float,
+) -> float:
+    """What a learner is told besides −φ² [rad²]: nothing in the thesis's own tasks.
+
+    The velocity (§4.6.3 names it), and γ·Φ(s′) − Φ(s) for a potential Φ, which changes no optimal
+    policy (Ng, Harada and Russell, 1999).
+    """
+    speed = next_angular_velocity if task.rewards_next else angular_velocity
+    added = -task.velocity_weight * speed * speed
+    if task.shaping != 0.0:
+        before = potential(body, task, angle, angular_velocity)
+        added += discount * potential(body, task, next_angle, next_angular_velocity) - before
+    return added
+
+
+@compiled
+def potential(body: Pendulum, task: Task, angle: float, angular_velocity: float) -> float:
+    """Φ [rad²]: zero at the energy of the pendulum at rest upright, −shaping at rest hanging."""
+    upright = energy(body, 0.0, 0.0)
+    return -task.shaping * abs(energy(body, angle, angular_velocity) - upright) / (2 * abs(upright))

@@ -1,0 +1,65 @@
+"""Q-learning, line for line as in §3.1.3 (and §3.2.2 for networks), for every learner and coding."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from upswing.agents.algorithms import Step, after_choice, before_choice, learn_from
+from upswing.agents.features import locate
+from upswing.agents.learners import values
+from upswing.agents.policy import Rule, epsilon_greedy
+from upswing.physics.environment import State, Trajectory, record, transition
+from upswing.physics.jit import compiled
+from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import Task
+
+
+@compiled
+def learn(
+    body: Pendulum,
+    task: Task,
+    coding: Any,
+    learner: NamedTuple,
+    method: NamedTuple,
+    rule: Rule,
+    state: State,
+    actions: np.random.Generator,
+    starts: np.random.Generator,
+    trajectory: Trajectory,
+    first: int,
+    last: int,
+) -> State:
+    """Learn from step ``first`` up to ``last``, recording every step; returns where the system is.
+
+    A run may be learned in several calls: the same trajectory as in one. ``learner``, ``method``,
+    the two streams of random numbers and ``trajectory`` are changed in place.
+    """
+    td_errors = trajectory.td_error
+    # Observe starting state s
+    place = locate(coding, state.angle, state.angular_velocity)
+    # Repeat:
+    for t in range(first, last):
+        before_choice(method, coding, learner, rule, td_errors, place)
+
+        # Choose a from s using policy derived from Q
+        q = values(learner, place)
+        action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
+        after_choice(method, coding, learner, rule, td_errors, place, action)
+
+        # Take action a, observe r, s′
+        taken = transition(body, task, rule.discount, state, action, starts)
+        seen, after = taken.seen, taken.after
+        next_place = locate(coding, seen.angle, seen.angular_velocity)
+
+        # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]: methods/q_learning.py
+        step = Step(
+            t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
+            next_place, taken.fell, taken.terminal,
+        )  # fmt: skip
+        td_error = learn_from(method, coding, learner, rule, td_errors, step)
+        record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
+
+        # s ← s′
+        state = after
+        place = locate(coding, after.angle, after.angular_velocity) if taken.fell else next_place
+    return state

@@ -1,0 +1,37 @@
+"""What a run came to: its measures, its greedy evaluation and its digest, as one row, for every job."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from upswing.physics.braking import highest_stoppable_speed
+from upswing.physics.environment import Trajectory
+from upswing.runs.evaluation import evaluate
+from upswing.runs.files.trajectory import digest, kept_steps
+from upswing.runs.metrics import Windows, in_windows, measure
+from upswing.runs.simulation import Setting
+from upswing.study.measured import Measures
+from upswing.study.spec import Spec
+
+
+class Outcome(NamedTuple):
+    """A run, measured."""
+
+    measures: Measures
+    windows: Windows
+    kept: NDArray[np.int64]  # the steps of the trajectory that are stored
+    row: dict[str, Any]  # measures, evaluation and digest by name: columns of the table of runs
+
+
+def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) -> Outcome:
+    """Measure a run of ``spec`` that ``setting`` has learned and ``trajectory`` holds."""
+    measures = measure(trajectory, spec.task.kind, highest_stoppable_speed(setting.body))
+    windows = in_windows(trajectory)
+    kept = kept_steps(trajectory, measures.first_stable_step)
+    row = {
+        **measures._asdict(),
+        **evaluate(setting, spec, seed)._asdict(),
+        "digest": digest(trajectory, kept, windows),
+    }
+    return Outcome(measures, windows, kept, row)

@@ -1,0 +1,1 @@
+"""The Rerun recording of a run: its rows, its pictures, its layout."""

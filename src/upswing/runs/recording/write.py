@@ -1,0 +1,180 @@
+"""The recording of one run: chosen stretches in full, envelopes between, and what was learned."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from upswing.physics.environment import Trajectory
+from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import ACCELERATIONS
+from upswing.runs.files.atomic import written
+from upswing.runs.metrics import Windows
+from upswing.runs.recording.frames import (
+    SIM_TIME,
+    STEP,
+    TIMELINES,
+    Frames,
+    Real,
+    rounded,
+    stretches,
+    time_columns,
+)
+from upswing.runs.recording.pictures import draw_learned, draw_pendulum, draw_phase_plane
+from upswing.runs.snapshots import Snapshots
+from upswing.study.ids import recording_id
+from upswing.study.measured import Measures
+
+ENVELOPE = 200
+"""The whole run is shown by the lowest and the highest angle of so many windows, at most."""
+
+LOGGED_FALLS = 50
+"""So many first falls are named in the log."""
+
+
+def write_recording(
+    path: Path,
+    run: str,
+    trajectory: Trajectory,
+    windows: Windows,
+    measures: Measures,
+    learned: Snapshots,
+    body: Pendulum,
+    properties: Mapping[str, Any],
+) -> None:
+    """Write the recording of ``run``, with its parameters and measures as ``properties``.
+
+    The layout is not in it: it is registered with the catalog once.
+
+    Raises:
+        OSError: it cannot be written; the disk may be full.
+    """
+    rr.set_strict_mode(True)  # otherwise errors become warnings and data is dropped
+    recording = rr.RecordingStream(f"upswing-{run.split('/')[0]}", recording_id=recording_id(run))
+    # Rerun's own writing of files ends at a full disk without saying so.
+    memory = recording.memory_recording()
+    try:
+        rr.send_recording_name(run, recording=recording)
+        recording.send_property("run", rr.AnyValues(**_known(properties)))
+        frames = stretches(trajectory, windows, measures.first_stable_step)
+        _about(recording, run, properties)
+        _lines(recording, frames, trajectory)
+        _envelope(recording, windows, frames)
+        draw_pendulum(recording, frames, trajectory, body)
+        draw_phase_plane(recording, frames, trajectory, learned)
+        draw_learned(recording, frames, learned)
+        _events(recording, frames, trajectory, measures)
+        content = memory.drain_as_bytes()
+    finally:
+        recording.disconnect()
+    with written(path) as beside:
+        beside.write_bytes(content)
+
+
+def _lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:
+    """Angle, velocity, cart, action, reward and TD error of every step of the stretches."""
+    at = np.minimum(frames.steps, len(trajectory.angle) - 1)
+    accelerations = np.array(ACCELERATIONS)[trajectory.action[at]]
+    angle = np.degrees(trajectory.angle[at])
+    lines: dict[str, dict[str, NDArray[Any]]] = {
+        "angle": {"φ": np.where(_jumps(angle), np.nan, angle)},
+        "angular_velocity": {"φ̇": trajectory.angular_velocity[at]},
+        "cart/position": {"x": trajectory.cart_position[at]},
+        "cart/velocity": {"ẋ": trajectory.cart_velocity[at]},
+        "action": {"ẍ": accelerations},
+        "learning": {"reward": trajectory.reward[at], "TD error": trajectory.td_error[at]},
+    }
+    for entity, columns in lines.items():
+        # Where a pixel holds several steps, their extremes: a mean of actions is no action.
+        style = rr.SeriesLines(
+            names=list(columns), aggregation_policy=rr.components.AggregationPolicy.MinMax
+        )
+        recording.log(entity, style, static=True)
+        values = rounded(np.stack(list(columns.values()), axis=1))
+        values[frames.gap] = np.nan
+        recording.send_columns(
+            entity,
+            indexes=time_columns(frames.steps, frames),
+            columns=rr.Scalars.columns(scalars=values.ravel()).partition(
+                [values.shape[1]] * len(values)
+            ),
+        )
+
+
+def _jumps(angle: Real) -> NDArray[np.bool_]:
+    """Where an angle [°] has come round or was reset: no line leads there."""
+    return np.abs(np.diff(angle, prepend=angle[:1])) > 60
+
+
+def _envelope(recording: rr.RecordingStream, windows: Windows, frames: Frames) -> None:
+    """The lowest and the highest angle over the whole run."""
+    group = -(-len(windows.first_step) // ENVELOPE)
+    begins = np.arange(0, len(windows.first_step), group)
+    lowest = np.degrees(np.minimum.reduceat(windows.lowest_angle, begins))
+    highest = np.degrees(np.maximum.reduceat(windows.highest_angle, begins))
+    entity = "envelope/angle"
+    recording.log(
+        entity,
+        rr.SeriesLines(names=["lowest", "highest"], colors=[[170, 170, 170]] * 2, widths=[0.8] * 2),
+        static=True,
+    )
+    steps = windows.first_step[begins]
+    recording.send_columns(
+        entity,
+        indexes=time_columns(steps, frames, (STEP, SIM_TIME)),
+        columns=rr.Scalars.columns(
+            scalars=rounded(np.stack([lowest, highest], axis=1)).ravel()
+        ).partition([2] * len(steps)),
+    )
+
+
+def _events(
+    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, measures: Measures
+) -> None:
+    """Start, falls and first success, as lines of a log."""
+    falls = np.flatnonzero(trajectory.reset)
+    events = [(0, "INFO", "start"), (measures.steps - 1, "INFO", "end")]
+    events += [
+        (int(step), "WARN", f"fall {number + 1} of {len(falls)}, reset")
+        for number, step in enumerate(falls[:LOGGED_FALLS])
+    ]
+    if measures.first_stable_step is not None:
+        events.append((measures.first_stable_step, "INFO", "first stable window begins"))
+    events.sort()
+    shown = set(frames.steps[~frames.gap].tolist())
+    # What happened outside the stretches has no frame.
+    for inside, timelines in ((True, TIMELINES), (False, (STEP, SIM_TIME))):
+        if some := [event for event in events if (event[0] in shown) == inside]:
+            recording.send_columns(
+                "events",
+                indexes=time_columns(np.array([step for step, _, _ in some]), frames, timelines),
+                columns=rr.TextLog.columns(
+                    text=[text for _, _, text in some], level=[level for _, level, _ in some]
+                ),
+            )
+
+
+def _about(recording: rr.RecordingStream, run: str, properties: Mapping[str, Any]) -> None:
+    """The run in words."""
+    rows = "\n".join(
+        f"| {name.replace('_', ' ')} | {_brief(value)} |"
+        for name, value in _known(properties).items()
+        if name not in ("spec", "digest")
+    )
+    recording.log(
+        "about",
+        rr.TextDocument(f"**{run}**\n\n| | |\n| --- | --- |\n{rows}\n", media_type="text/markdown"),
+        static=True,
+    )
+
+
+def _brief(value: Any) -> str:
+    return f"{value:,.4g}" if isinstance(value, float) else str(value)
+
+
+def _known(properties: Mapping[str, Any]) -> dict[str, Any]:
+    """Without what is unknown: a recording has no empty property."""
+    return {name: value for name, value in properties.items() if value is not None}

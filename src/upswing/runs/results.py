@@ -1,0 +1,169 @@
+"""Reading a folder of results: the runs of a cell, their windows, the worst, median and best run."""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from upswing.runs.files.table import read_table
+from upswing.runs.files.tables import RUNS, read_runs
+from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
+from upswing.runs.study_file import read_study
+from upswing.study.config import Study
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
+from upswing.study.spec import Spec
+
+Real = NDArray[np.float64]
+
+ORDER_OF_RUNS = {
+    "balancing": {"falls": False, "falls_last_fifth": False, "seed": True},
+    "full-control": {"upright_share": True, "mean_reward": True, "seed": True},
+}
+"""By what the runs of a task are ordered, the worst first; later names break ties. Whether ascending."""
+
+
+class OneRun(NamedTuple):
+    """A single run of a cell."""
+
+    id: str
+    kind: str  # of its task: "balancing" or "full-control"
+    seed: int
+    trajectory: pd.DataFrame  # stored steps: whole at the start and end, thinned between
+    windows: pd.DataFrame  # the whole run in windows
+
+
+class Crowd(NamedTuple):
+    """All runs of a cell, by window; arrays of shape (runs, windows)."""
+
+    kind: str  # of the task: "balancing" or "full-control"
+    seeds: list[int]
+    last_step: Real  # after which step a window ends: (windows,)
+    falls: Real
+    upright_share: Real
+
+    @property
+    def falls_so_far(self) -> Real:
+        """Falls since the beginning, shape (runs, windows)."""
+        return np.cumsum(self.falls, axis=1)
+
+
+class Results:
+    """A folder of results, read for drawing."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    @cached_property
+    def study(self) -> Study:
+        """The study that these are the results of."""
+        return read_study(self.folder)
+
+    @cached_property
+    def cells(self) -> Mapping[str, Spec]:
+        """The cells of the study by their ids."""
+        return Matrix(self.study).cells
+
+    @cached_property
+    def runs(self) -> pd.DataFrame:
+        """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
+        path, cells = self.folder / RUNS, self.cells
+        frame = read_runs(self.folder, set(Matrix(self.study).runs))
+        frame["cell"] = frame["run"].str.rsplit("/", n=1).str[0]
+        there = frame.groupby("cell")["seed"].agg(set).to_dict()
+        if incomplete := [
+            f"{path}: {cell}: {len(lost)} of {len(spec.seeds)} runs are missing; "
+            f"run the study again to make them"
+            for cell, spec in cells.items()
+            if (lost := set(spec.seeds) - there.get(cell, set()))
+        ]:
+            raise BadInput(incomplete)
+        return frame
+
+    def check_complete(self) -> None:
+        """Raise ``BadInput`` if a run, or what shows it, is missing; it names the cells."""
+        problems = []
+        for cell in self.cells:
+            recordings = [self.folder / path for path in self.cell(cell)["recording"]]
+            if lost := [path for path in recordings if not path.is_file()]:
+                problems.append(
+                    f"{self.folder}: {cell}: {len(lost)} of {len(recordings)} recordings are missing "
+                    f"({lost[0].name}, …); run the study again to make them"
+                )
+        if problems:
+            raise BadInput(problems)
+
+    def cell(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs."""
+        if cell not in self.cells:
+            raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
+        return self.runs[self.runs["cell"] == cell]
+
+    def kind(self, cell: str) -> str:
+        """The kind of a cell's task: "balancing" or "full-control"."""
+        return self.cells[cell].task.kind
+
+    def in_order(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs, the worst first."""
+        order = ORDER_OF_RUNS.get(self.kind(cell), ORDER_OF_RUNS["full-control"])
+        runs = self.with_measures(list(order))
+        return runs[runs["cell"] == cell].sort_values(list(order), ascending=list(order.values()))
+
+    def with_measures(self, measures: Sequence[str]) -> pd.DataFrame:
+        """The table of runs; ``BadInput`` if it lacks a measure, or if one is no number."""
+        for name in measures:
+            if name not in self.runs or not pd.api.types.is_numeric_dtype(self.runs[name]):
+                raise BadInput(
+                    [
+                        f"{self.folder / RUNS}: {name}: there is no such column of numbers; "
+                        f"`upswing tables {self.folder}` makes the table anew"
+                    ]
+                )
+        return self.runs
+
+    def median_run(self, cell: str) -> OneRun:
+        """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
+        return self._one(cell, self.three_of(cell).iloc[1])
+
+    def worst_median_best(self, cell: str) -> list[OneRun]:
+        """The first, the middle and the last run of a cell, in the order of its runs."""
+        return [self._one(cell, row) for _, row in self.three_of(cell).iterrows()]
+
+    def three_of(self, cell: str) -> pd.DataFrame:
+        """The rows of the worst, the median and the best run of a cell."""
+        ordered = self.in_order(cell)
+        return ordered.iloc[[0, (len(ordered) - 1) // 2, len(ordered) - 1]]
+
+    def _one(self, cell: str, row: pd.Series) -> OneRun:
+        return OneRun(
+            row["run"],
+            self.kind(cell),
+            int(row["seed"]),
+            self.trajectory(row["run"]),
+            self._read(row["run"], "windows"),
+        )
+
+    def trajectory(self, run: str) -> pd.DataFrame:
+        """The stored steps of a run."""
+        return self._read(run, "trajectory")
+
+    def crowd(self, cell: str) -> Crowd:
+        """All runs of a cell."""
+        rows = self.cell(cell)
+        windows = [self._read(run, "windows") for run in rows["run"]]
+        return Crowd(
+            kind=self.kind(cell),
+            seeds=[int(seed) for seed in rows["seed"]],
+            last_step=(windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float),
+            falls=np.stack([frame["falls"].to_numpy(float) for frame in windows]),
+            upright_share=np.stack([frame["upright_share"].to_numpy(float) for frame in windows]),
+        )
+
+    def _read(self, run: str, kind: str) -> pd.DataFrame:
+        path = self.folder / "runs" / f"{run}.{kind}.parquet"
+        columns = OF_A_TRAJECTORY if kind == "trajectory" else OF_WINDOWS
+        return read_table(path, columns, "run the study again to make it")

@@ -1,0 +1,111 @@
+"""A specification and a seed → everything that the loop needs for a run."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from upswing.agents import algorithms as methods
+from upswing.agents import features as codings
+from upswing.agents import learners
+from upswing.agents.features import Coding
+from upswing.agents.learners import Learner
+from upswing.agents.policy import Rule
+from upswing.physics import tasks
+from upswing.physics.environment import State, Trajectory
+from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.physics.tasks import Task
+from upswing.runs import loop
+from upswing.study.spec import Spec
+
+REWARD_SCALES = {"half_turn": 4.0, "radians": 1.0, "degrees": (180 / np.pi) ** 2}
+"""From rad² into the unit of R3; half_turn reads 90° as π, so an angle is twice its radians."""
+
+
+def streams(seed: int) -> Iterator[np.random.Generator]:
+    """The streams of random numbers of a run, from its seed alone.
+
+    In order: actions, starts, first weights, greedy evaluation. Runs of different cells with the
+    same seed so see the same draws.
+    """
+    return (np.random.default_rng(child) for child in np.random.SeedSequence(seed).spawn(4))
+
+
+@dataclass
+class Setting:
+    """A run in the making."""
+
+    body: Pendulum
+    task: Task
+    coding: Coding
+    rule: Rule
+    learner: Learner
+    method: NamedTuple
+    state: State
+    actions: np.random.Generator
+    starts: np.random.Generator
+
+    def advance(self, trajectory: Trajectory, first: int, last: int) -> None:
+        """Go on from step ``first`` up to ``last``, recorded in ``trajectory``."""
+        own_loop = getattr(self.learner, "advance", None)
+        learn = loop.learn if own_loop is None else own_loop
+        self.state = learn(
+            self.body, self.task, self.coding, self.learner.stepped, self.method, self.rule, self.state,
+            self.actions, self.starts, trajectory, first, last,
+        )  # fmt: skip
+
+
+def body_of(spec: Spec) -> Pendulum:
+    """The pendulum under the reading R1."""
+    upright = spec.readings.zero_of_angle == "upright"
+    return Pendulum(orientation=FROM_UPRIGHT if upright else FROM_HANGING)
+
+
+def prepare(spec: Spec, seed: int) -> Setting:
+    """A run of ``spec`` before its first step."""
+    readings, settings = spec.readings, spec.architecture
+    options = settings.model_dump()
+    actions, starts, weights, _ = streams(seed)
+    task = tasks.create(spec.task.kind, readings)._replace(
+        velocity_weight=float(spec.task.velocity_weight), shaping=float(spec.task.shaping)
+    )
+    coding = codings.create(settings.coding, codings.Plan(spec.task.kind, options, readings))
+    scale = REWARD_SCALES[readings.reward_unit]
+    learner = learners.create(
+        settings.learner,
+        learners.Beginning(
+            coding=coding,
+            options=options,
+            readings=readings,
+            lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
+            weights=weights,
+        ),
+    )
+    printed_error = settings.learner == "networks" and readings.error_sign == "printed"
+    rule = Rule(
+        step_size=0.0 if spec.alpha is None else float(spec.alpha),
+        discount=float(spec.discount),
+        bootstrap_sign=-1.0 if printed_error else 1.0,
+        reward_scale=scale,
+        epsilon=float(spec.epsilon) if learner.epsilon is None else learner.epsilon,
+        random_ties=readings.ties == "random",
+    )
+    return Setting(
+        body=body_of(spec),
+        task=task,
+        coding=coding,
+        rule=rule,
+        learner=learner,
+        method=new_method(spec, coding),
+        state=State(*tasks.start(task, starts), 0.0, 0.0),
+        actions=actions,
+        starts=starts,
+    )
+
+
+def new_method(spec: Spec, coding: Coding) -> NamedTuple:
+    """The method of ``spec`` with nothing remembered."""
+    options = spec.architecture.model_dump()
+    design = methods.Design(coding.modules, float(spec.discount), options, spec.readings)
+    return methods.create(spec.architecture.method, design)

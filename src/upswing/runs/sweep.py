@@ -1,0 +1,65 @@
+"""A group of readings → one row a run: its measures, and nothing else of it."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing.physics.environment import Trajectory, empty_trajectory
+from upswing.runs.files.ledger import seal
+from upswing.runs.files.table import Columns
+from upswing.runs.files.tables import NULLABLE, OF_A_RUN, write_table
+from upswing.runs.outcome import outcome_of
+from upswing.runs.simulation import prepare
+from upswing.study.config import Study
+from upswing.study.errors import BadInput, near
+from upswing.study.measured import Measures
+from upswing.study.spec import Spec
+from upswing.study.sweeps import Sweep, canonical_of, groups, label, specs
+
+OF_A_SWEPT_RUN: Columns = {
+    **OF_A_RUN, "sweep": "text", "readings": "text", "cell": "text", "task": "text",
+    **dict.fromkeys(Measures._fields, "number"),
+}  # fmt: skip
+
+
+def path_of(results: Path, sweep: str, group: str) -> Path:
+    """Where the rows of a group stand."""
+    return results / "readings" / sweep / f"{group}.parquet"
+
+
+def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str) -> Path:
+    """Run a group of a sweep and write its table; returns the table's path."""
+    known = {one.name: one for one in groups(sweep, study)}
+    if group not in known:
+        raise BadInput([f"sweep {name}: {group}: no such group; {near(group, known)}"])
+    rows: list[dict[str, Any]] = []
+    for overrides in known[group].members:
+        begin = time.perf_counter()
+        before = len(rows)
+        for spec in specs(sweep, study, overrides):
+            trajectory = empty_trajectory(spec.task.steps)
+            rows += [
+                {
+                    "sweep": name,
+                    "readings": canonical_of(overrides),
+                    **outcome(spec, seed, trajectory),
+                }
+                for seed in spec.seeds
+            ]
+        took = time.perf_counter() - begin
+        print(f"{label(overrides)}: {len(rows) - before} runs in {took:.1f} s", flush=True)
+    path = path_of(results, name, group)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_table(path, pd.DataFrame(rows).astype(NULLABLE))
+    seal(results, f"readings/{name}/{group}", [path])
+    return path
+
+
+def outcome(spec: Spec, seed: int, trajectory: Trajectory) -> dict[str, Any]:
+    """One row: what a run came to; ``trajectory`` has room for its steps and is written over."""
+    setting = prepare(spec, seed)
+    setting.advance(trajectory, 0, spec.task.steps)
+    row = outcome_of(spec, seed, setting, trajectory).row
+    return {"cell": spec.cell, **spec.columns(seed), **row, "recording": ""}

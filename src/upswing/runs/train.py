@@ -1,0 +1,177 @@
+"""A specification → its runs → their artefacts."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from safetensors.numpy import save
+
+from upswing.physics.environment import Trajectory, empty_trajectory
+from upswing.runs.files.atomic import written
+from upswing.runs.files.checksums import checksum
+from upswing.runs.files.ledger import ledger_of_run, seal
+from upswing.runs.files.provenance import metadata, provenance
+from upswing.runs.files.resume import keep, take_back
+from upswing.runs.files.trajectory import write_trajectory, write_windows
+from upswing.runs.outcome import outcome_of
+from upswing.runs.recording.write import write_recording
+from upswing.runs.simulation import Setting, prepare
+from upswing.runs.snapshots import Snapshots, look, moments, snapshots
+from upswing.study import jobs
+from upswing.study.matrix import RUN_FILES
+from upswing.study.measured import Measures
+from upswing.study.spec import Spec
+
+
+class RunsFailed(RuntimeError):
+    """Some runs of a job failed; the others are there."""
+
+
+@dataclass
+class Run:
+    """A run that was learned."""
+
+    trajectory: Trajectory
+    setting: Setting
+    learned: Snapshots  # what it knew on the way
+    seconds: float  # spent learning
+
+
+def train(spec: Spec, results: Path) -> None:
+    """Learn every run of ``spec`` and store it below ``results``.
+
+    A run that fails does not stop the others; ``RunsFailed`` then names it at the end.
+    """
+    failed, finished = [], []
+    trajectory = empty_trajectory(spec.task.steps)
+    for seed in spec.seeds:
+        one = spec.of_seed(seed)
+        print(f"{one.run(seed)}\n  to repeat it: {one.command(str(results))}", flush=True)
+        place = results / "runs" / one.run(seed)
+        if take_back(results, one.run(seed), _identity(one), place.parent):
+            print("  was finished before, when another run of its job failed", flush=True)
+            _seal(one, results)
+            finished.append(one)
+            continue
+        try:
+            run = learn(one, seed, trajectory)
+            with _all_or_none(place):
+                measures = _store(one, seed, run, results)
+                _seal(one, results)
+        except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
+            failed.append(f"{one.run(seed)}: {type(error).__name__}: {error}")
+            print(f"  failed: {failed[-1]}", file=sys.stderr, flush=True)
+        else:
+            finished.append(one)
+            rate = spec.task.steps / run.seconds
+            print(f"  {run.seconds:.3f} s, {rate:,.0f} steps/s, {measures}", flush=True)
+    if failed:
+        for one in finished:
+            place = results / "runs" / one.run(one.seeds[0])
+            files = sorted(place.parent.glob(f"{place.name}.*"))
+            keep(results, one.run(one.seeds[0]), _identity(one), files)
+        raise RunsFailed("\n".join(failed))
+
+
+@contextmanager
+def _all_or_none(place: Path) -> Iterator[None]:
+    """The files of a run belong together: if one cannot be written, the others go, old or new."""
+    try:
+        yield
+    except BaseException:
+        for path in place.parent.glob(f"{place.name}.*"):
+            if path.is_file():
+                path.unlink()
+        raise
+
+
+def _identity(one: Spec) -> str:
+    """What a finished run must be of to be used again: its specification and the code that trains it."""
+    return f"{jobs.training(one.architecture, one.task.kind).fingerprint} {one.canonical()}"
+
+
+def _seal(one: Spec, results: Path) -> None:
+    """Keep the checksums of a run's files, and what they are of, where neither can change the other."""
+    run = one.run(one.seeds[0])
+    files = [results / "runs" / f"{run}.{kind}" for kind in RUN_FILES]
+    code = jobs.training(one.architecture, one.task.kind).fingerprint
+    seal(results, ledger_of_run(run), files, spec=one.canonical(), code=code)
+
+
+def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
+    """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
+    setting = prepare(spec, seed)
+    setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
+    seconds, looked = 0.0, [(0, look(setting.learner, setting.coding))]
+    for first, last in pairwise(moments(spec.task.steps).tolist()):
+        begin = perf_counter()
+        setting.advance(trajectory, first, last)
+        seconds += perf_counter() - begin
+        looked.append((last, look(setting.learner, setting.coding)))
+    if spec.alpha is None:
+        trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
+    return Run(trajectory, setting, snapshots(setting.coding, looked), seconds)
+
+
+def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
+    """Write the four files of a run; returns its measures."""
+    measures, windows, kept, row = outcome_of(spec, seed, run.setting, run.trajectory)
+    learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
+    place = results / "runs" / spec.run(seed)
+    content: dict[str, Any] = {
+        "spec": spec.canonical(),
+        "run": spec.run(seed),
+        "code": jobs.training(spec.architecture, spec.task.kind).fingerprint,
+    }
+    outcome: dict[str, Any] = {
+        **row,
+        "seconds": run.seconds,
+        "steps_per_second": measures.steps / run.seconds,
+    }
+    write_trajectory(
+        place.with_name(f"{place.name}.trajectory.parquet"),
+        run.trajectory,
+        kept,
+        metadata(**content),
+    )
+    write_recording(
+        place.with_name(f"{place.name}.rrd"),
+        spec.run(seed),
+        run.trajectory,
+        windows,
+        measures,
+        run.learned,
+        run.setting.body,
+        _properties(spec, seed, outcome),
+    )
+    with written(place.with_name(f"{place.name}.weights.safetensors")) as beside:
+        beside.write_bytes(save(learned, metadata={"spec": spec.canonical()}))
+    # The windows come last: with them a run is complete, and they know the other files.
+    content["checksums"] = {
+        kind: checksum(place.with_name(f"{place.name}.{kind}"))
+        for kind in ("trajectory.parquet", "rrd", "weights.safetensors")
+    }
+    write_windows(
+        place.with_name(f"{place.name}.windows.parquet"),
+        windows,
+        metadata(**content, outcome=outcome),
+    )
+    return measures
+
+
+def _properties(spec: Spec, seed: int, outcome: dict[str, Any]) -> dict[str, Any]:
+    """What the catalog of recordings can be sorted and filtered by."""
+    made = provenance()
+    return {
+        **{name: value for name, value in spec.columns(seed).items() if name != "run"},
+        **outcome,
+        "git_commit": made.git_commit,
+        "dirty": made.dirty,
+        "spec": spec.canonical(),
+    }

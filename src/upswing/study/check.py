@@ -1,0 +1,68 @@
+"""Everything that is written is checked before anything runs, and all problems are said at once."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from upswing.study.claims import Claim, load_claims
+from upswing.study.config import Study, from_snakemake, load
+from upswing.study.errors import BadInput
+from upswing.study.results_folder import check_results
+from upswing.study.sweeps import Sweep, load_sweeps
+
+T = TypeVar("T")
+
+
+class Asked(NamedTuple):
+    """What a run of the workflow is asked for."""
+
+    study: Study
+    claims: Mapping[str, Claim]
+    sweeps: Mapping[str, Sweep]
+
+
+def checked(config: Path, claims: Path, sweeps: Path) -> Study:
+    """The study in ``config``; claims and sweeps are looked at where their files are there.
+
+    Raises:
+        BadInput: every problem of any of the files.
+    """
+    problems: list[str] = []
+    study = _tried(problems, lambda: load(config))
+    if study is not None:
+        _tried(problems, lambda: check_results(study.results, str(config)))
+    if claims.exists():
+        _tried(problems, lambda: load_claims(claims, study))
+    if sweeps.exists() and study is not None:
+        _tried(problems, lambda: load_sweeps(sweeps, study))
+    if problems or study is None:
+        raise BadInput(problems)
+    return study
+
+
+def asked(
+    files: Sequence[str | Path], merged: Mapping[str, Any], claims: Path, sweeps: Path
+) -> Asked:
+    """The same for a run of Snakemake: its configuration files, and what ``--config`` laid over them.
+
+    Raises:
+        BadInput: every problem of any of the files.
+    """
+    problems: list[str] = []
+    study = _tried(problems, lambda: from_snakemake(files, merged))
+    claimed = _tried(problems, lambda: load_claims(claims, study))
+    swept = None
+    if study is not None:
+        _tried(problems, lambda: check_results(study.results, " + ".join(map(str, files))))
+        swept = _tried(problems, lambda: load_sweeps(sweeps, study))
+    if problems or study is None or claimed is None or swept is None:
+        raise BadInput(problems)
+    return Asked(study, claimed, swept)
+
+
+def _tried(problems: list[str], read: Callable[[], T]) -> T | None:
+    try:
+        return read()
+    except BadInput as error:
+        problems += error.problems
+        return None

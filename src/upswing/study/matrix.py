@@ -1,0 +1,105 @@
+"""Configuration → cells → jobs → runs, with their stable ids and paths."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby, product
+
+from upswing.study.config import Experiment, Study
+from upswing.study.spec import NamedArchitecture, NamedTask, Spec, cell_id
+
+RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
+"""The endings of a run's files."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Seeds that share a job in every cell."""
+
+    number: int
+    seeds: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """The block by its seeds: ``seeds_0_to_14``."""
+        return f"seeds_{self.seeds[0]}_to_{self.seeds[-1]}"
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """The cells of a study."""
+
+    study: Study
+
+    @cached_property
+    def cells(self) -> dict[str, Spec]:
+        """Every cell by its id, with all its seeds, in the order of the experiments."""
+        return {spec.cell: spec for spec in self._specs()}
+
+    @cached_property
+    def blocks(self) -> list[Block]:
+        """The seeds in blocks of fixed borders, so that more seeds add blocks and change none."""
+        size = self.study.seeds_per_job
+        groups = groupby(sorted(self.study.seeds), key=lambda seed: seed // size)
+        return [Block(number, tuple(seeds)) for number, seeds in groups]
+
+    def job(self, cell: str, block: Block) -> Spec:
+        """The specification of a cell's job for a block of seeds."""
+        return self.cells[cell].model_copy(update={"seeds": block.seeds})
+
+    @property
+    def runs(self) -> Iterator[str]:
+        """The id of every run."""
+        for spec in self.cells.values():
+            for seed in spec.seeds:
+                yield spec.run(seed)
+
+    def spec(self, task: str, name: str, alpha: float | None, seeds: tuple[int, ...]) -> Spec:
+        """The specification of a task, an architecture and a step size, for some seeds."""
+        study, architecture = self.study, self.study.architectures[name]
+        epsilon, discount = architecture.epsilon, architecture.discount
+        return Spec(
+            task=NamedTask(name=task, **dict(study.tasks[task])),
+            architecture=NamedArchitecture(
+                name=name, **{**dict(architecture), "epsilon": None, "discount": None}
+            ),
+            alpha=alpha,
+            seeds=tuple(sorted(seeds)),
+            epsilon=study.epsilon if epsilon is None else epsilon,
+            discount=study.discount if discount is None else discount,
+            readings=study.readings,
+        )
+
+    def _specs(self) -> Iterator[Spec]:
+        for experiment in self.study.experiments:
+            for task, name, alpha in _combinations(experiment):
+                yield self.spec(task, name, alpha, self.study.seeds)
+
+
+def cells_of(experiment: Experiment) -> list[str]:
+    """The ids of an experiment's cells, in order."""
+    return [cell_id(task, name, alpha) for task, name, alpha in _combinations(experiment)]
+
+
+def _combinations(experiment: Experiment) -> Iterator[tuple[str, str, float | None]]:
+    yield from product(experiment.tasks, experiment.architectures, experiment.alphas or (None,))
+
+
+def canonical_search(study: Study) -> str:
+    """All that the search of a study depends on besides the code, as one line."""
+    if study.search is None:
+        return ""
+    return "\n".join(
+        [
+            study.search.model_dump_json(),
+            *(Matrix(study).spec(*combination).canonical() for combination in searched(study)),
+        ]
+    )
+
+
+def searched(study: Study) -> Iterator[tuple[str, str, float, tuple[int, ...]]]:
+    """Task, architecture, step size and seeds of all that a study searches through."""
+    if study.search is not None:
+        for candidates in study.search.candidates:
+            for name, alpha in product(candidates.architectures, candidates.alphas):
+                yield study.search.task, name, alpha, study.search.seeds

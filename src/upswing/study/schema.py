@@ -1,0 +1,103 @@
+"""What every key of a configuration means, as Markdown; ``config/README.md`` is this."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from upswing.study.config import schema
+from upswing.study.sweeps import Sweep
+
+HEAD = """\
+# Configuration
+
+`config.yaml` is the study of the thesis, `smoke.yaml` the same in a minute. Write your own beside
+them and run it with
+
+    .venv/bin/upswing check config/mine.yaml
+    make study CONFIG=config/mine.yaml
+
+and give it a `results` folder of its own, or it replaces what is in `results/`. Unknown keys,
+duplicate keys and numbers written as text (`1e-3` is text in YAML) are refused, all problems in one
+message.
+
+`schema.json` is the same as a JSON schema, for editors. Both are generated from the types
+(`make schema`), and a test compares them.
+"""
+
+
+SWEEPS_HEAD = """\
+`claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
+
+`readings.yaml` says what `make readings` runs under other readings. The sweep named `selection` chooses
+the networks' default; every other one judges the claims whose cells it has.
+
+"""
+
+
+def reference() -> str:
+    """The page."""
+    described = schema()
+    definitions = described["$defs"]
+    sections = [HEAD, _section("Top level", described)]
+    titles = {
+        "Task": "A task, below `tasks.<name>`",
+        "Architecture": "An architecture, below `architectures.<name>`",
+        "Experiment": "An experiment, an item of `experiments`",
+        "Readings": "Readings, below `readings`",
+    }
+    sections += [_section(title, definitions[name]) for name, title in titles.items()]
+    sweep = Sweep.model_json_schema()
+    sections.append(SWEEPS_HEAD + _section("A sweep, below `<name>` in `readings.yaml`", sweep))
+    return "\n".join(sections)
+
+
+def _section(title: str, described: dict[str, Any]) -> str:
+    rows = "\n".join(_rows(described))
+    return (
+        f"## {title}\n\n| key | values | default | meaning |\n| --- | --- | --- | --- |\n{rows}\n"
+    )
+
+
+def _rows(described: dict[str, Any]) -> Iterator[str]:
+    required = described.get("required", [])
+    for name, field in described["properties"].items():
+        default = "required" if name in required else _shown(field.get("default"))
+        yield f"| `{name}` | {_values(field)} | {default} | {field.get('description', '')} |"
+
+
+def _values(field: dict[str, Any]) -> str:
+    """The values a key may have, in words."""
+    if "enum" in field:
+        return ", ".join(f"`{value}`" for value in field["enum"])
+    if "const" in field:
+        return f"`{field['const']}`"
+    if "anyOf" in field:
+        return " or ".join(_values(option) for option in field["anyOf"])
+    if "$ref" in field:
+        return "see below"
+    match field.get("type"):
+        case "array":
+            return f"list of {_values(field['items'])}"
+        case "object":
+            return "mapping, see below"
+        case "integer" | "number" as kind:
+            return ("integer" if kind == "integer" else "number") + _limits(field)
+        case "boolean":
+            return "`true`, `false`"
+        case "null":
+            return "nothing"
+    return "text"
+
+
+def _limits(field: dict[str, Any]) -> str:
+    words = {
+        "minimum": "from {}", "exclusiveMinimum": "above {}",
+        "maximum": "to {}", "exclusiveMaximum": "below {}",
+    }  # fmt: skip
+    limits = [text.format(field[key]) for key, text in words.items() if key in field]
+    return f" {' '.join(limits)}" if limits else ""
+
+
+def _shown(default: Any) -> str:
+    if default in (None, [], ()):
+        return "none"
+    return f"`{str(default).lower() if isinstance(default, bool) else default}`"

@@ -1,0 +1,53 @@
+"""Comparing two folders of results."""
+
+import pandas as pd
+import pytest
+
+from tests.made_up import FROM, ONE, ZERO, N, made_up, part, share_of
+from upswing.analysis.compare import compare
+from upswing.analysis.verdicts import write_verdicts
+from upswing.cli.main import main
+from upswing.runs.files.tables import RUNS, write_table
+from upswing.study.claims import Claim
+
+
+@pytest.fixture
+def two_folders(tmp_path):
+    """Two folders of results that are alike."""
+    asked = part("share", [ONE], where={"x": {"at_least": 1}}, **FROM)
+    claims = {"C1": Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])}
+
+    def make(name, x):
+        made_up(tmp_path / name, x=[x, ZERO, ZERO])
+        write_verdicts(tmp_path / name, claims)
+        return tmp_path / name
+
+    return make
+
+
+def test_the_same_results_compare_as_the_same(two_folders, capsys):
+    a, b = two_folders("a", share_of(1)), two_folders("b", share_of(1))
+    found = compare(a, b)
+    assert found.common_runs == 3 * N
+    assert not any((found.changed_verdicts, found.parted_estimates, found.changed_runs))
+    assert main(["compare", str(a), str(b)]) == 0
+    assert "every verdict is the same" in capsys.readouterr().out
+
+
+def test_a_changed_verdict_and_a_changed_run_are_named(two_folders, capsys):
+    a, b = two_folders("a", share_of(1)), two_folders("b", share_of(0.2))
+    runs = pd.read_parquet(b / RUNS)
+    runs.loc[runs["run"] == f"{ONE}/seed-3", "digest"] = "another"
+    write_table(b / RUNS, runs)
+    found = compare(a, b)
+    assert found.changed_verdicts == [("C1", "reproduced", "not reproduced")]
+    assert found.changed_runs == [f"{ONE}/seed-3"]
+    assert [estimate[2:] for estimate in found.parted_estimates] == [(1.0, 0.2)]
+    assert main(["compare", str(a), str(b)]) == 1
+    assert "C1: reproduced → not reproduced" in capsys.readouterr().out
+
+
+def test_a_folder_that_was_never_judged(two_folders, tmp_path, capsys):
+    a = two_folders("a", share_of(1))
+    assert main(["compare", str(a), str(tmp_path / "none")]) == 2
+    assert "verdicts.parquet: missing" in capsys.readouterr().err

@@ -1,0 +1,213 @@
+"""What the user may write, and what is said of anything else."""
+
+import json
+from copy import deepcopy
+
+import numpy as np
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.paths import ROOT
+from upswing.study.config import from_snakemake, load, schema, validated
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
+from upswing.study.names import alpha_text
+from upswing.study.readings import Readings
+from upswing.study.schema import reference
+from upswing.study.spec import parse
+from upswing.study.yaml_file import read_yaml
+
+STUDY = yaml.safe_load((ROOT / "config/config.yaml").read_text("utf-8"))
+
+
+def problems_of(change):
+    content = deepcopy(STUDY)
+    change(content)
+    with pytest.raises(BadInput) as caught:
+        validated({"study.yaml": content})
+    return caught.value.problems
+
+
+def put(*place_and_value):
+    *place, key, value = place_and_value
+
+    def change(content):
+        for part in place:
+            content = content[part]
+        content[key] = value
+
+    return change
+
+
+BAD = {
+    "unknown key": (put("epsilom", 0.1), "epsilom: unknown key: did you mean 'epsilon'?"),
+    "unknown key below": (put("tasks", "balancing", "step", 5), "tasks.balancing.step: unknown key: did you mean 'steps'?"),
+    "negative seed": (put("seeds", [-1, 0]), "seeds[0]: -1: "),
+    "negative count": (put("seeds", -3), "seeds: -3: write how many"),
+    "seed twice": (put("seeds", [1, 1]), "seeds: [1, 1]: 1 stands there twice"),
+    "no seeds": (put("seeds", 0), "seeds: 0: write how many"),
+    "alpha 0": (put("experiments", 0, "alphas", [0]), "experiments[0].alphas[0]: 0: "),
+    "alpha above 1": (put("experiments", 0, "alphas", [1, 1.5]), "experiments[0].alphas[1]: 1.5: "),
+    "alpha as text": (put("experiments", 0, "alphas", ["1e-3"]), 'alphas[0]: "1e-3": this is text, not a number; write 0.001'),
+    "alpha not a number": (put("experiments", 0, "alphas", [float("nan")]), "experiments[0].alphas[0]"),
+    "alpha of a control": (put("experiments", 4, "alphas", [1]), "idle does not learn and has no α"),
+    "no alpha": (put("experiments", 0, "alphas", []), "experiments[0].alphas: missing: table learns"),
+    "unknown task": (put("experiments", 0, "tasks", ["balancin"]), "did you mean 'balancing'?"),
+    "unknown architecture": (put("experiments", 0, "architectures", ["tabel"]), "did you mean 'table'?"),
+    "unknown kind": (put("tasks", "balancing", "kind", "balance"), "must be 'balancing' or 'full-control'"),
+    "unknown reading": (put("readings", "zero_of_angel", "upright"), "did you mean 'zero_of_angle'?"),
+    "unknown option": (put("readings", "ties", "randon"), "readings.ties: \"randon\": must be 'random' or 'first'; did you mean 'random'?"),
+    "unknown rate": (put("readings", "learning_rate", 0.2), "readings.learning_rate: 0.2: must be one of 0.03, 0.1, 0.3, 0.5, 1"),
+    "network of size 0": (put("architectures", "networks-5", "hidden", [0]), "architectures.networks-5.hidden[0]: 0: "),
+    "three layers": (put("architectures", "networks-5", "hidden", [1, 2, 3]), "architectures.networks-5.hidden"),
+    "network without size": (put("architectures", "networks-5", "hidden", []), "goes with `learner: networks`"),
+    "duplicate cell": (put("experiments", 1, "tasks", ["balancing"]), "balancing/table/alpha-1\": duplicate cell: experiments[0]"),
+    "steps 0": (put("tasks", "balancing", "steps", 0), "tasks.balancing.steps: 0: "),
+    "steps as truth": (put("tasks", "balancing", "steps", True), "tasks.balancing.steps: true: "),
+    "discount 1": (put("discount", 1), "discount: 1: "),
+    "name that leaves": (put("tasks", "../elsewhere", {"kind": "balancing", "steps": 5}), "tasks.../elsewhere"),
+    "name with a space": (put("architectures", "a b", {"learner": "table"}), "a name has small letters"),
+    "not a mapping": (put("tasks", ["balancing"]), "tasks: [\"balancing\"]: "),
+    "results nowhere": (put("results", ""), "results"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input_names_file_key_value_and_what_would_be_right(name):
+    change, expected = BAD[name]
+    problems = problems_of(change)
+    assert any(expected in problem for problem in problems), problems
+    assert all(problem.startswith("study.yaml: ") for problem in problems)
+
+
+def test_all_problems_are_in_one_message():
+    def change(content):
+        put("seeds", -1)(content)
+        put("epsilom", 1)(content)
+        put("readings", "ties", "x")(content)
+
+    assert len(problems_of(change)) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("seeds: 3\nseeds: 4\n", "line 2: seeds: duplicate key"),
+        ("tasks:\n  a: {kind: balancing, kind: balancing}\n", "line 2: kind: duplicate key"),
+        ("- 1\n", "must hold keys and values"),
+        ("a: [1\n", "is not YAML"),
+        ("1: 2\n", "a key must be text"),
+        ("", "must hold keys and values"),
+    ],
+)
+def test_yaml_that_cannot_be_meant(tmp_path, text, expected):
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, "utf-8")
+    with pytest.raises(BadInput, match=expected) as caught:
+        read_yaml(path)
+    assert str(path) in str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(BadInput, match="cannot be read"):
+        load(tmp_path / "none.yaml")
+
+
+@pytest.mark.parametrize("name", ["config.yaml", "smoke.yaml"])
+def test_our_own_configurations_are_good(name):
+    assert load(ROOT / "config" / name).readings == Readings()
+
+
+def test_the_matrix_of_the_thesis():
+    matrix = Matrix(load(ROOT / "config/config.yaml"))
+    assert len(matrix.cells) == 34
+    assert len(set(matrix.runs)) == len(list(matrix.runs)) == 34 * 30
+    assert matrix.cells["full-control-long/table/alpha-0.001"].task.steps == 5_000_000
+
+
+def test_smoke_has_the_cells_of_the_thesis():
+    thesis, smoke = (Matrix(load(ROOT / f"config/{name}.yaml")) for name in ("config", "smoke"))
+    assert list(thesis.cells) == list(smoke.cells)
+
+
+def test_more_seeds_only_add_blocks():
+    def blocks(seeds):
+        return Matrix(validated({"x": {**STUDY, "seeds": seeds}})).blocks
+
+    assert blocks(100)[:2] == blocks(30)
+    assert [block.seeds for block in blocks([1000, 1019])] == [(1000,), (1019,)]
+
+
+def test_command_line_values_are_laid_over_the_file():
+    path = ROOT / "config/config.yaml"
+    assert len(from_snakemake([path], {**STUDY, "seeds": 2}).seeds) == 2
+    with pytest.raises(BadInput, match="--config: seeds: -2"):
+        from_snakemake([path], {**STUDY, "seeds": -2})
+
+
+def test_schema_and_key_reference_are_those_of_the_types():
+    assert json.loads((ROOT / "config/schema.json").read_text("utf-8")) == schema(), "make schema"
+    assert (ROOT / "config/README.md").read_text("utf-8") == reference(), "make schema"
+
+
+def test_specs_come_back_from_their_text():
+    for spec in Matrix(load(ROOT / "config/config.yaml")).cells.values():
+        assert parse(spec.canonical()).canonical() == spec.canonical()
+
+
+def test_1_and_1_point_0_are_one_spec():
+    one, other = deepcopy(STUDY), deepcopy(STUDY)
+    other["experiments"][0]["alphas"][0] = 1.0
+    one["readings"]["initial_weights"] = 1
+    other["readings"]["initial_weights"] = 1.0
+    specs = [Matrix(validated({"x": content})).cells for content in (one, other)]
+    cell = "balancing/networks-5/alpha-1"
+    assert specs[0][cell].canonical() == specs[1][cell].canonical()
+
+
+def test_a_reading_of_networks_is_no_part_of_a_tables_spec():
+    content = deepcopy(STUDY)
+    content["readings"]["learning_rate"] = 0.5
+    before, after = (Matrix(validated({"x": c})).cells for c in (STUDY, content))
+    changed = {cell for cell in before if before[cell].canonical() != after[cell].canonical()}
+    assert changed == {cell for cell in before if "networks" in cell}
+
+
+@given(st.floats(1e-9, 1).map(lambda x: float(np.round(x, 9))).filter(lambda x: x > 0))
+def test_alphas_come_back_from_their_text(alpha):
+    text = alpha_text(alpha)
+    assert float(text) == alpha
+    assert "e" not in text
+    assert not text.endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("{", "is not JSON"),
+        ("[]", "must be a JSON object"),
+        ("{}", "spec: task: missing"),
+        ('{"seeds": [1], "seeds": [2]}', "seeds: duplicate key"),
+    ],
+)
+def test_specs_that_are_none(text, expected):
+    with pytest.raises(BadInput, match=expected):
+        parse(text)
+
+
+def test_bad_values_in_a_spec():
+    good = json.loads(
+        next(iter(Matrix(load(ROOT / "config/config.yaml")).cells.values())).canonical()
+    )
+    for key, value, expected in [
+        ("alpha", 2, "spec: alpha: 2: "),
+        ("alpha", None, "a control has null, a learner a number"),
+        ("seeds", [-1], r"spec: seeds\[0\]: -1"),
+        ("seeds", [], "spec: seeds"),
+        ("speed", 1, "spec: speed: unknown key: did you mean 'seeds'"),
+        ("readings", {"ties": "never"}, "spec: readings.ties"),
+    ]:
+        with pytest.raises(BadInput, match=expected):
+            parse(json.dumps({**good, key: value}))

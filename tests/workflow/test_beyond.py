@@ -1,0 +1,305 @@
+"""The chapter beyond the thesis: its tables from runs, its search by a rule, its workflow, its place in the page."""
+
+import re
+from copy import deepcopy
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from tests.paths import ROOT
+from tests.workflow.test_workflow import Study
+from upswing.analysis.ablation import EVERY_TIME
+from upswing.analysis.beyond_tables import CHANGES, CHOSEN, SHORTEST
+from upswing.analysis.search import chosen, upright_shares
+from upswing.optimal.rows import Row
+from upswing.optimal.tables import BOUND, MAPS
+from upswing.physics.environment import empty_trajectory
+from upswing.report.chapter import chapter
+from upswing.report.page import write_report
+from upswing.runs.files.tables import write_table
+from upswing.study.config import load, validated
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix, canonical_search, cells_of
+from upswing.study.readings import Readings
+
+pytestmark = pytest.mark.xdist_group("beyond")
+SMALL = {
+    "results": "results/beyond",
+    "seeds": [5000, 5001, 5002],
+    "seeds_per_job": 15,
+    "tasks": {
+        "balancing": {"kind": "balancing", "steps": 6_000},
+        "full-control": {"kind": "full-control", "steps": 6_000},
+        "full-control-shaped": {"kind": "full-control", "steps": 6_000, "shaping": 10},
+    },
+    "architectures": {
+        "table": {"learner": "table"},
+        "tilings": {"learner": "table", "coding": "tilings", "discount": 0.9},
+        "sarsa": {"learner": "table", "method": "sarsa"},
+    },
+    "experiments": [
+        {"title": "As in the thesis", "tasks": ["balancing", "full-control"], "architectures": ["table"], "alphas": [0.1]},
+        {"title": "Other tiles", "tasks": ["full-control"], "architectures": ["tilings"], "alphas": [1]},
+        {"title": "Another reward", "tasks": ["full-control-shaped"], "architectures": ["sarsa"], "alphas": [0.1]},
+    ],
+    "search": {
+        "task": "full-control",
+        "seeds": [1000, 1001],
+        "lengths": [2_000, 6_000],
+        "candidates": [
+            {"title": "the thesis's own means", "architectures": ["table"], "alphas": [0.1]},
+            {"title": "one change", "architectures": ["tilings", "sarsa"], "alphas": [1, 0.1]},
+        ],
+    },
+}  # fmt: skip
+
+
+def made_up_bound(folder):
+    """Numbers of the bound as they might be; what they really are is tested elsewhere, and takes longer."""
+    rows = [
+        Row("catchable_speed", 20.2, "rad/s", "exact"),
+        Row("stoppable_speed", 20.2, "rad/s", "exact"),
+        *(Row("catchable_speed", value, "rad/s", grid) for value, grid in ((20.1, "a"), (20.2, "b"))),
+        *(Row(name, 0.6, "s", "b", policy="fastest") for name in (
+            "time_from_hanging", "time_from_hanging_followed", "mean_time_from_rest",
+        )),
+        *(Row(name, value, "", "b", policy="optimal") for name, value in (
+            ("lowest_discount_from_hanging", 0.874), ("lowest_discount_from_all", 0.966),
+        )),
+        *(Row(name, 1.0, "", "b", policy=policy) for policy in ("fastest", "tiles") for name in (
+            "explored_upright_share", "success_share",
+        )),
+        *(Row(name, value, "", "b", policy="optimal", discount=discount)
+          for discount in (0.7, 0.97) for name, value in (
+            ("success_share", discount), ("success_from_hanging", discount > 0.9),
+            ("explored_upright_share", 0.6), ("explored_never_upright", 0.4), ("mean_reward", -3.0),
+        )),
+    ]  # fmt: skip
+    write_table(folder / BOUND, pd.DataFrame(rows).astype({"discount": "float64"}))
+    angles, speeds = (axis.ravel() for axis in np.meshgrid(
+        np.linspace(-3, 3, 7), np.linspace(-20, 20, 9), indexing="ij",
+    ))  # fmt: skip
+    maps = {
+        "angle": angles,
+        "angular_velocity": speeds,
+        "time_to_upright": np.abs(angles),
+        "keepable": np.abs(angles) < 1,
+    }
+    actions = {f"action_{discount}": np.arange(len(angles)) % 3 for discount in (0.7, 0.97)}
+    write_table(folder / MAPS, pd.DataFrame({**maps, **actions}))
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """A small study of changes, run by Snakemake; the bound is there already."""
+    one = Study(tmp_path_factory.mktemp("beyond"))
+    one.write(SMALL)
+    made_up_bound(one.folder / "results/beyond")
+    one.ran = one.jobs()
+    return one
+
+
+def test_every_part_of_the_chapter_has_its_job(study):
+    assert study.ran == {
+        "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "comparisons": 1,
+        "changes": 1, "shortest": 1, "figure": 5, "viewer": 1, "report": 1,
+    }  # fmt: skip
+    assert study.jobs() == {}
+
+
+def test_each_change_has_its_row(study):
+    folder = study.folder / "results/beyond"
+    changes = pd.read_parquet(folder / CHANGES)
+    runs = pd.read_parquet(folder / "tables/runs.parquet")
+    content = validated({"small": SMALL})
+    assert changes["cell"].tolist() == [c for e in content.experiments for c in cells_of(e)]
+    assert changes["change"].tolist() == ["As in the thesis"] * 2 + [
+        "Other tiles",
+        "Another reward",
+    ]
+    for _, row in changes.iterrows():
+        own = runs[runs["run"].str.startswith(f"{row['cell']}/")]
+        balanced = (own["falls_last_fifth"] == 0).sum()
+        upright = own["upright_share"]
+        first = (
+            (balanced, balanced)
+            if row["kind"] == "balancing"
+            else ((upright >= 0.9).sum(), (upright >= EVERY_TIME).sum())
+        )
+        assert (row["successes"], row["sure"]) == first
+        assert row["success_low"] <= row["success"] <= row["success_high"]
+        assert row["upright"] == pytest.approx(upright.mean())
+        assert row["missing"] == pytest.approx(1 - upright.mean())
+        assert row["missing_low"] <= row["missing"] <= row["missing_high"]
+        assert row["stable"] == own["first_stable_step"].notna().sum()
+        assert np.isfinite(row["stable_step"]) == (row["stable"] >= len(own) / 2)
+        assert row["median_run"] in own["run"].tolist()
+        assert 1 < row["nanoseconds"] < 1e6
+    assert changes["discount"].tolist() == [0.7, 0.7, 0.9, 0.7]
+
+
+def test_the_page_shows_the_chapter(study):
+    page = (study.folder / "results/beyond/report/index.html").read_text("utf-8")
+    for words in ("What each change buys", "Other tiles", "20.2000 rad/s", "0.874"):
+        assert words in page
+    assert 'id="verdicts"' not in page
+    links = re.findall(r'href="(viewer/[^"#]*)#([^"]*)"', page)
+    kept = {
+        path.stem for path in (study.folder / "results/beyond/report/viewer/recordings").iterdir()
+    }
+    shown = re.search(r'id="buys".*?</table>', page, re.DOTALL)[0]
+    for name in re.findall(r'href="viewer/index.html#([^"]*)"', shown):
+        assert name in kept
+    assert len(links) > 4
+
+
+def test_the_studys_own_page_has_the_chapter_once_it_has_been_run(study, results, tmp_path):
+    import shutil
+
+    folder = tmp_path / "results"
+    shutil.copytree(results.folder, folder, ignore=shutil.ignore_patterns("runs", "beyond"))
+    (folder / "report").mkdir(exist_ok=True)
+    write_report(folder, ROOT / "report")
+    assert 'id="beyond"' not in (folder / "report/index.html").read_text("utf-8")
+    shutil.copytree(study.folder / "results/beyond", folder / "beyond")
+    write_report(folder, ROOT / "report")
+    page = (folder / "report/index.html").read_text("utf-8")
+    assert 'id="beyond"' in page
+    assert 'id="verdicts"' in page
+    for place in set(re.findall(r'href="(\.\./beyond/[^"#]*)', page)):
+        assert (folder / "report" / place).resolve().is_file(), place
+    assert chapter(folder)["own"] is False
+
+
+def test_a_change_of_the_search_searches_again_and_nothing_else_does(study):
+    def planned():
+        done = study.snakemake("-n")
+        text = done.stdout + done.stderr
+        assert done.returncode == 0, text
+        return {"shortest"} & set(re.findall(r"^(?:local)?rule (\w+):", text, re.MULTILINE))
+
+    other_threshold = deepcopy(SMALL)
+    other_threshold["experiments"][0]["title"] = "As the author did it"
+    study.write(other_threshold)
+    assert planned() == set()
+    longer = deepcopy(SMALL)
+    longer["search"]["lengths"] = [2_000, 4_000, 6_000]
+    study.write(longer)
+    assert planned() == {"shortest"}
+    study.write(SMALL)
+    assert planned() == set()
+
+
+def test_the_search_tried_all_candidates(study):
+    tried = pd.read_parquet(study.folder / "results/beyond" / SHORTEST)
+    assert len(tried) == (1 + 4) * 2
+    assert (tried["seeds"] == 2).all()
+    best = pd.read_parquet(study.folder / "results/beyond" / CHOSEN)
+    assert best["title"].tolist() == ["the thesis's own means", "one change"]
+
+
+def test_a_shorter_training_is_the_beginning_of_a_longer_one():
+    study = validated(
+        {"small": {**SMALL, "search": {**SMALL["search"], "lengths": [3_000, 6_000]}}}
+    )
+    spec = Matrix(study).spec("full-control", "tilings", 1.0, (1000, 1001))
+    shares = upright_shares(spec, study.search, empty_trajectory(6_000))
+    alone = study.search.model_copy(update={"lengths": (3_000,)})
+    again = upright_shares(spec, alone, empty_trajectory(3_000))
+    np.testing.assert_array_equal(shares[:, 0], again[:, 0])
+    assert shares.shape == (2, 2)
+
+
+def tried(*candidates):
+    """A table of what was tried: (group, architecture, sure seeds of 5 after 10, 20, 30 steps)."""
+    return pd.DataFrame(
+        [
+            {"group": group, "title": f"group {group}", "architecture": name, "alpha": 0.1,
+             "discount": 0.7, "steps": steps, "seeds": 5, "sure": sure, "worst": 0.0}
+            for group, name, *counts in candidates
+            for steps, sure in zip((10, 20, 30), counts, strict=True)
+        ]
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("candidates", "expected"),
+    [
+        ([(0, "a", 5, 5, 5), (0, "b", 4, 5, 5)], [("a", 10, 5)]),
+        ([(0, "a", 5, 4, 5), (0, "b", 4, 5, 5)], [("b", 20, 5)]),  # luck at first is not reliable
+        ([(0, "a", 0, 5, 5), (0, "b", 0, 5, 5)], [("a", 20, 5)]),  # of equals the first
+        ([(0, "a", 5, 5, 3), (0, "b", 0, 0, 4)], [("b", np.inf, 4)]),  # none: the nearest
+        ([(0, "a", 0, 0, 5), (1, "b", 5, 5, 5)], [("a", 30, 5), ("b", 10, 5)]),
+    ],
+)
+def test_the_rule_chooses_the_shortest_reliable_training_of_each_group(candidates, expected):
+    best = chosen(tried(*candidates))
+    assert list(zip(best["architecture"], best["steps"], best["sure"], strict=True)) == expected
+
+
+def problems_of(**search):
+    with pytest.raises(BadInput) as caught:
+        validated({"beyond.yaml": {**SMALL, "search": {**SMALL["search"], **search}}})
+    return "\n".join(caught.value.problems)
+
+
+def test_a_search_that_cannot_be_is_refused():
+    assert "search.task" in problems_of(task="balancing")
+    assert "on these seeds" in problems_of(seeds=[5001, 1])
+    one = [{"title": "x", "architectures": ["tabel"], "alphas": [1]}]
+    assert "did you mean 'table'?" in problems_of(candidates=one)
+
+
+def test_the_chapters_own_configuration_searches_and_reports_on_different_seeds():
+    study = load(ROOT / "config/beyond.yaml")
+    assert len(study.seeds) == len(study.search.seeds) == 30
+    assert not set(study.seeds) & set(study.search.seeds)
+    assert all(experiment.title for experiment in study.experiments)
+    assert "tilings" in canonical_search(study)
+
+
+def test_every_part_there_is_is_used():
+    """A learner, coding or method that no study in ``config/`` uses is tried by nobody."""
+    from upswing.study.config import parts
+
+    files = [
+        path
+        for path in (ROOT / "config").glob("*.yaml")
+        if "experiments:" in path.read_text("utf-8")
+    ]
+    assert len(files) >= 3
+    used = [architecture for path in files for architecture in load(path).architectures.values()]
+    for room, key in (("learners", "learner"), ("codings", "coding"), ("methods", "method")):
+        unused = set(parts(room)) - {getattr(one, key) for one in used}
+        assert not unused, (
+            f"name {unused} in config/beyond.yaml, or in a study of your own in config/"
+        )
+
+
+def test_both_configurations_have_the_same_readings():
+    content = [
+        yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "beyond")
+    ]
+    assert content[0]["readings"] == content[1]["readings"]
+
+
+def test_a_method_without_a_body_is_refused(monkeypatch):
+    from upswing.agents import algorithms as methods
+
+    monkeypatch.delitem(methods._learn_from_by_type.bodies, methods_of("sarsa"))
+    with pytest.raises(TypeError, match="no body under @learn_from_of"):
+        methods.create("sarsa", methods.Design(1, 0.7, {}, Readings()))
+
+
+def methods_of(name):
+    from upswing.agents import algorithms as methods
+
+    return type(methods.create(name, methods.Design(1, 0.7, {}, Readings())))
+
+
+def test_a_kind_of_task_beyond_the_thesis_is_touched_by_every_reading_and_evaluated():
+    touching = Readings().touching("table", "another", modular=False)
+    assert {"wrap", "reset"} <= set(touching)
+    assert "hand_over" not in touching

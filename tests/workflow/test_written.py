@@ -1,0 +1,246 @@
+"""Everything that is written is checked before anything runs: files, names, folders, quantities."""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.paths import ROOT
+from tests.workflow.test_workflow import BIN, SMALL, Study
+from upswing.cli.main import main
+from upswing.study.check import checked
+from upswing.study.claims import load_claims
+from upswing.study.config import MOST_RUNS, validated
+from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
+from upswing.study.names import alpha_text
+from upswing.study.results_folder import check_results
+from upswing.study.yaml_file import read_yaml
+
+CLAIMS = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))
+
+
+def yaml_of(tmp_path, text):
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, "utf-8")
+    return read_yaml(path)
+
+
+@pytest.mark.parametrize(
+    "scalar",
+    ["!!int x", "!!bool perhaps", "0x_", "9" * 5_000, "!!float x", "!!timestamp x", "!!int", "!!binary é", "!!map x", "!!seq x", "!!set x", "!!pairs x", "!unknown x", "0b_", "-0o9:_"],
+)  # fmt: skip
+@pytest.mark.parametrize("place", ["seeds: {}", "tasks: {{a: {}}}", "x: [{}]"])
+def test_a_scalar_that_python_refuses_is_one_line_with_its_own(tmp_path, scalar, place):
+    try:
+        yaml_of(tmp_path, f"first: 1\n{place.format(scalar)}\n")
+    except BadInput as error:
+        (said,) = error.problems
+        assert re.search(r"mine.yaml: line [23]:", said)
+        assert "\n" not in said
+    else:  # then it is text
+        assert scalar in ("0x_", "0b_", "-0o9:_")
+
+
+def test_a_date_is_text(tmp_path):
+    assert yaml_of(tmp_path, "a: 2001-13-45\nb: 2001-01-01") == {
+        "a": "2001-13-45",
+        "b": "2001-01-01",
+    }
+
+
+def test_merge_keys_bring_what_is_not_there_itself(tmp_path):
+    text = "n: &n {learner: networks, hidden: [5]}\na: {<<: *n, hidden: [9]}\nb: {<<: [*n, {c: 1}]}"
+    content = yaml_of(tmp_path, text)
+    assert content["a"] == {"learner": "networks", "hidden": [9]}
+    assert content["b"] == {"learner": "networks", "hidden": [5], "c": 1}
+    with pytest.raises(BadInput, match="hidden: duplicate key"):
+        yaml_of(tmp_path, "n: &n {a: 1}\nb: {<<: *n, hidden: 1, hidden: 2}")
+    with pytest.raises(BadInput, match="only a mapping can be merged"):
+        yaml_of(tmp_path, "b: {<<: 3}")
+
+
+def test_nested_merges_cost_no_more_than_their_keys(tmp_path):
+    levels = [f"a{n}: &a{n} {{<<: [*a{n - 1}, *a{n - 1}], k{n}: 1}}" for n in range(1, 40)]
+    begin = time.monotonic()
+    content = yaml_of(tmp_path, "\n".join(["a0: &a0 {k0: 1}", *levels]))
+    assert time.monotonic() - begin < 5
+    assert len(content["a39"]) == 40
+    with pytest.raises(BadInput, match="nested too deeply"):
+        yaml_of(tmp_path, "a: &a {<<: *a}")
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ({}, "must have at least 1"),
+        ({"../../x": CLAIMS["C1"]}, "a claim's name has letters"),
+        ({"<b>": CLAIMS["C1"]}, "a claim's name has letters"),
+        ({"C1": {**CLAIMS["C1"], "cell": "balancing/tabel/alpha-1"}}, "did you mean 'balancing/table/alpha-1'"),
+        ({"C1": 3}, "C1: 3: must hold keys and values"),
+        ({"C1": {**CLAIMS["C1"], "parts": 3}}, "must be a list"),
+        ({"C1": {**CLAIMS["C1"], "figure": "5"}}, "figure"),
+    ],
+)  # fmt: skip
+def test_claims_are_checked_like_the_configuration(tmp_path, content, expected):
+    path = tmp_path / "claims.yaml"
+    path.write_text(yaml.safe_dump(content), "utf-8")
+    (tmp_path / "config.yaml").write_bytes((ROOT / "config/config.yaml").read_bytes())
+    with pytest.raises(BadInput, match=re.escape(expected)):
+        load_claims(path, validated({"small": SMALL}))
+
+
+def test_claims_of_cells_that_another_study_here_has_are_fine():
+    assert len(load_claims(ROOT / "config/claims.yaml", validated({"small": SMALL}))) == 16
+
+
+def test_all_problems_of_all_files_are_said_at_once(tmp_path, capsys):
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump({**SMALL, "sede": 3}), "utf-8")
+    (tmp_path / "claims.yaml").write_text("C1: 3", "utf-8")
+    (tmp_path / "readings.yaml").write_text("$(touch pwned): 3", "utf-8")
+    good = tmp_path / "good.yaml"
+    good.write_text(yaml.safe_dump(SMALL), "utf-8")
+    words = ["--claims", str(tmp_path / "claims.yaml"), "--sweeps", str(tmp_path / "readings.yaml")]
+    assert main(["check", str(tmp_path / "mine.yaml"), *words]) == 2
+    said = capsys.readouterr().err
+    assert "sede" in said
+    assert "claims.yaml: C1" in said
+    assert main(["check", str(good), *words]) == 2
+    said = capsys.readouterr().err
+    assert "claims.yaml: C1" in said
+    assert "readings.yaml" in said
+    assert "a name has small letters" in said
+
+
+def test_little_memory_is_one_line(tmp_path):
+    command = f"ulimit -v 700000; exec '{BIN}/upswing' check '{ROOT}/config/config.yaml'"
+    done = subprocess.run(
+        ["bash", "-c", command], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert "Traceback" not in done.stderr
+    assert done.returncode == 0 or len(done.stderr.strip().splitlines()) == 1, done.stderr
+
+
+RULES = [*(ROOT / "workflow/rules").glob("*.smk"), ROOT / "Snakefile"]
+SHELL = re.compile(r'shell:\s+((?:"[^\n]*"\s*)+)')
+
+
+def test_every_placeholder_of_every_command_is_quoted():
+    rules = commands = 0
+    for path in RULES:
+        text = path.read_text("utf-8")
+        rules += len(re.findall(r"^\s*rule\b", text, re.MULTILINE))
+        for command in SHELL.findall(text):
+            commands += 1
+            bare = [one for one in re.findall(r"\{[^{}]*\}", command) if not one.endswith(":q}")]
+            assert bare == [], f"{path.name}: {command}"
+            assert command.strip().startswith('"upswing ')
+    assert commands == rules - 1 >= 13  # `all` has none
+
+
+def test_names_that_would_be_commands_or_paths_are_refused_before_anything_runs(tmp_path):
+    study = Study(tmp_path)
+    for name in ("$(touch pwned)", "../../x", "a;touch pwned", "`touch pwned`"):
+        sweeps = {name: {"vary": ["ties"], "how": "pairs", "seeds": 1, "cells": ["balancing/table/alpha-1"]}}  # fmt: skip
+        (tmp_path / "config/readings.yaml").write_text(yaml.safe_dump(sweeps), "utf-8")
+        done = study.snakemake("--", "readings")
+        said = done.stdout + done.stderr
+        assert done.returncode != 0
+        assert "a name has small letters" in said
+        assert "Traceback" not in said
+    assert not [path for path in tmp_path.rglob("*pwned*") if ".snakemake" not in path.parts]
+    assert not (tmp_path / "results").exists()
+
+
+def test_braces_in_a_text_are_no_wildcard(tmp_path):
+    study = Study(tmp_path)
+    experiments = [{**SMALL["experiments"][0], "title": "before {seed} and {wildcards.x}"}]
+    study.write({**SMALL, "experiments": experiments, "results": "results/deep"})
+    claims = {"C1": {**CLAIMS["C1"], "statement": "As {task} says."}}
+    (tmp_path / "config/claims.yaml").write_text(yaml.safe_dump(claims), "utf-8")
+    done = study.snakemake("--", "results/deep/study.json")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "before {seed} and {wildcards.x}" in (tmp_path / "results/deep/study.json").read_text()
+    assert study.snakemake("--dry-run").returncode == 0
+
+
+@pytest.mark.parametrize(
+    "folder",
+    ["/", "..", ".", "src", ".git", "src/upswing", "file", "loop", "a\nb", "a{seed}", "", "full", "nowhere", "full/../src"],
+)  # fmt: skip
+def test_a_folder_that_is_not_for_results_is_refused(tmp_path, monkeypatch, folder):
+    monkeypatch.chdir(tmp_path)
+    for name in ("src/upswing", ".git", "full", "config"):
+        Path(name).mkdir(parents=True)
+    Path("file").touch()
+    Path("full/thesis.doc").touch()
+    Path("loop").symlink_to("loop")
+    Path("nowhere").symlink_to("gone")
+    config = tmp_path / "config/mine.yaml"
+    config.write_text(yaml.safe_dump({**SMALL, "results": folder}), "utf-8")
+    with pytest.raises(BadInput) as caught:
+        checked(config, Path("none"), Path("none"))
+    (said,) = caught.value.problems
+    assert said.startswith(f"{config}: results: ")
+    assert "\n" not in said
+
+
+def test_a_folder_that_is_new_empty_or_a_studys_own_is_accepted(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("empty", "own", "begun/runs", "results/smoke"):
+        Path(name).mkdir(parents=True)
+    Path("own/study.json").touch()
+    Path("own/thesis.doc").touch()  # that was there when the study began, or came later
+    Path("results/README.md").touch()
+    Path("results/smoke/study.json").touch()
+    for folder in ("new", "new/deep", "empty", "own", "begun", "results", str(tmp_path / "away")):
+        check_results(folder, "mine.yaml")
+
+
+def with_alphas(*alphas):
+    experiment = {**SMALL["experiments"][0], "alphas": list(alphas)}
+    return validated({"mine.yaml": {**SMALL, "experiments": [experiment]}})
+
+
+@pytest.mark.parametrize(
+    ("alphas", "expected"),
+    [
+        ([1e-320], "at least 1e-09"),
+        ([0.1, 0.10000000000000002], "at most 12 digits; write 0.1"),
+        ([0.5, 0.5], "0.5 stands there twice"),
+    ],
+)
+def test_an_alpha_that_no_path_can_tell_is_refused(alphas, expected):
+    with pytest.raises(BadInput, match=re.escape(expected)):
+        with_alphas(*alphas)
+    assert len(alpha_text(1.23456789012e-9)) < 30
+
+
+def test_as_many_runs_as_are_allowed_are_checked_in_time(tmp_path):
+    many = {**SMALL, "seeds": MOST_RUNS, "experiments": [{"tasks": ["balancing"], "architectures": ["idle"]}]}  # fmt: skip
+    study = validated({"mine.yaml": many})
+    assert len(list(Matrix(study).runs)) == MOST_RUNS == 100_000
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump({**many, "seeds": list(range(MOST_RUNS))}), "utf-8")
+    for content in (many, {**many, "seeds": list(range(MOST_RUNS))}):
+        begin = time.process_time()
+        validated({"mine.yaml": content})
+        # 2 s are asked of the whole; what was quadratic took minutes.
+        assert time.process_time() - begin < 10
+    with pytest.raises(BadInput, match="at most 100,000"):
+        validated({"mine.yaml": {**many, "seeds": MOST_RUNS + 1}})
+    with pytest.raises(BadInput, match="come to 200,000 runs; a study has at most 100,000"):
+        validated({"mine.yaml": {**many, "experiments": [{"tasks": ["balancing"], "architectures": ["idle", "random"]}]}})  # fmt: skip
+
+
+def test_check_needs_no_module_that_computes(tmp_path):
+    code = "import sys; from upswing.cli.main import main; main(['check', 'config/config.yaml']); print({'numba', 'torch', 'scipy', 'rerun'} & set(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, env=dict(os.environ), capture_output=True, text=True, check=True
+    )  # fmt: skip
+    assert done.stdout.splitlines()[-1] == "set()"
