@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tests import textbook
 from tests.helpers import assert_same, beyond_spec, run
+from tests.oracles import textbook
 from upswing.agents.algorithms import monte_carlo
 
 KINDS = ["balancing", "full-control"]

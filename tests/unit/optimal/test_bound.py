@@ -8,7 +8,8 @@ import pytest
 from scipy.interpolate import RegularGridInterpolator
 
 from upswing.agents.features import locate
-from upswing.optimal import rows, table, tile_rows
+from upswing.optimal import bound as table
+from upswing.optimal import rows, tile_rows
 from upswing.optimal.follow import EPSILON, explored, follow, from_starts, without_exploring
 from upswing.optimal.grid import Grid, interpolate, points, successors
 from upswing.optimal.min_time import arrived, steps_taken

@@ -21,12 +21,13 @@ from upswing.recordings import lending as lending_module
 from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.engine import FILES, engine
 from upswing.recordings.lending import lending
-from upswing.recordings.names import VIEWER, recording_id
+from upswing.recordings.names import VIEWER
 from upswing.recordings.policies import source_of
 from upswing.recordings.ports import listens
 from upswing.recordings.singly import chosen_runs, script_of_layout, script_of_run
 from upswing.recordings.viewer import FOLDER, write_viewer
 from upswing.report.page import write_report
+from upswing.study.ids import recording_id
 
 pytestmark = pytest.mark.xdist_group("viewer")
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
