@@ -15,7 +15,7 @@ from safetensors.numpy import save
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.runs.files.atomic import written
 from upswing.runs.files.checksums import checksum
-from upswing.runs.files.ledger import ledger_of_run, seal
+from upswing.runs.files.ledger import ledger_of_run, ledger_path, seal
 from upswing.runs.files.provenance import metadata, provenance
 from upswing.runs.files.resume import keep, take_back
 from upswing.runs.files.trajectory import write_trajectory, write_windows
@@ -61,7 +61,7 @@ def train(spec: Spec, results: Path) -> None:
             continue
         try:
             run = learn(one, seed, trajectory)
-            with _all_or_none(place):
+            with _all_or_none(place, ledger_path(results, ledger_of_run(one.run(seed)))):
                 measures = _store(one, seed, run, results)
                 _seal(one, results)
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
@@ -80,12 +80,12 @@ def train(spec: Spec, results: Path) -> None:
 
 
 @contextmanager
-def _all_or_none(place: Path) -> Iterator[None]:
-    """The files of a run belong together: if one cannot be written, the others go, old or new."""
+def _all_or_none(place: Path, ledger: Path) -> Iterator[None]:
+    """The files of a run belong together: if one cannot be written, all of them go, old or new."""
     try:
         yield
     except BaseException:
-        for path in place.parent.glob(f"{place.name}.*"):
+        for path in (*place.parent.glob(f"{place.name}.*"), ledger):
             if path.is_file():
                 path.unlink()
         raise

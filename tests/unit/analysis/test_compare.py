@@ -14,11 +14,11 @@ from upswing.study.claims import Claim
 @pytest.fixture
 def two_folders(tmp_path):
     """Two folders of results that are alike."""
-    asked = part("share", [ONE], where={"x": {"at_least": 1}}, **FROM)
+    asked = part("share", [ONE], where={"swing_ups": {"at_least": 1}}, **FROM)
     claims = {"C1": Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])}
 
     def make(name, x):
-        made_up(tmp_path / name, x=[x, ZERO, ZERO])
+        made_up(tmp_path / name, swing_ups=[x, ZERO, ZERO])
         write_verdicts(tmp_path / name, claims)
         return tmp_path / name
 
