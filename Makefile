@@ -99,11 +99,11 @@ clean-orphans: install ## Delete runs that the study, as it last ran, no longer 
 
 .PHONY: test
 test: install ## Run the tests
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup -m "not heavy"
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m "not heavy"
 
 .PHONY: test-heavy
 test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadgroup -m heavy
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m heavy
 
 .PHONY: test-all
 test-all: test test-heavy ## Run all tests, those that take long too

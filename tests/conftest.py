@@ -55,6 +55,11 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     return Results(folder)
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take longest: the workflow's. A file stays on one worker (loadfile)."""
+    items.sort(key=lambda item: "workflow" not in item.path.parts)
+
+
 CHROMIUM = Path("/usr/bin/chromium")
 
 

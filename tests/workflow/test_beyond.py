@@ -24,7 +24,6 @@ from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix, canonical_search, cells_of
 from upswing.study.readings import Readings
 
-pytestmark = pytest.mark.xdist_group("beyond")
 SMALL = {
     "results": "results/beyond",
     "seeds": [5000, 5001, 5002],

@@ -18,7 +18,6 @@ from tests.workflow.test_workflow import BIN, Study
 from upswing.analysis.doctor import examine
 from upswing.runs.train import RunsFailed, train
 
-pytestmark = pytest.mark.xdist_group("faults")
 SLOW = {
     "results": "results",
     "seeds": 4,

@@ -16,8 +16,6 @@ from upswing.study.config import load
 from upswing.study.matrix import Matrix
 from upswing.study.sweeps import load_sweeps
 
-pytestmark = pytest.mark.xdist_group("jobs")
-
 NOT_THE_RESULT = {"upswing", "upswing.cli", "upswing.cli.main", "upswing.cli.terminal"}
 """What takes a command and prints: no file that a job writes depends on it."""
 
@@ -140,10 +138,10 @@ def beyond():
 @pytest.mark.parametrize(
     ("architecture", "reached", "not_reached"),
     [
-        ("gated-table", "learners.table", "learners.networks"),
-        ("gated-networks-5", "learners.networks", "learners.table"),
-        ("table", "methods.q_learning", "methods.sarsa"),
-        ("hashed", "codings.fine", "codings.tilings"),
+        ("gated-table", "agents.learners.table", "agents.learners.networks"),
+        ("gated-networks-5", "agents.learners.networks", "agents.learners.table"),
+        ("table", "agents.algorithms.q_learning", "agents.algorithms.sarsa"),
+        ("hashed", "agents.features.fine", "agents.features.tilings"),
     ],
 )
 def test_an_architecture_reaches_what_it_uses_and_nothing_else(architecture, reached, not_reached):

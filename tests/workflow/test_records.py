@@ -12,7 +12,6 @@ from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.train import train
 from upswing.study.spec import parse
 
-pytestmark = pytest.mark.xdist_group("records")
 TRAIN, CELLS = "train_seeds_0_to_1", 2
 TINY = {
     "results": "results",

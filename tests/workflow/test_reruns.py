@@ -14,7 +14,6 @@ from tests.paths import ROOT
 from tests.workflow.test_workflow import BIN, FIGURES_OF_SMALL, SMALL, Study
 from upswing.analysis.doctor import delete_orphans, examine
 
-pytestmark = pytest.mark.xdist_group("reruns")
 CELLS = 5
 FOLLOWS = {
     "tables": 1,

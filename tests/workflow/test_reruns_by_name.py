@@ -7,7 +7,6 @@ import yaml
 
 from tests.workflow.test_reruns import Edited
 
-pytestmark = pytest.mark.xdist_group("reruns-by-name")
 CONFIG = {
     "results": "results",
     "seeds": [5000],

@@ -12,7 +12,7 @@ import pytest
 
 from tests.workflow.test_workflow import BIN, SMALL, Study
 
-pytestmark = [pytest.mark.xdist_group("slurm"), pytest.mark.heavy]
+pytestmark = pytest.mark.heavy
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "munged")
 CONFIGURATION = Path("/etc/slurm/slurm.conf")
 

@@ -16,8 +16,6 @@ from tests.paths import ROOT
 from upswing.figures import FIGURES
 
 BIN = Path(sys.executable).parent
-# One study serves all tests of this file, in their order: on one worker.
-pytestmark = pytest.mark.xdist_group("workflow")
 KEPT = ("Snakefile", "workflow", "report", "config")
 SMALL = {
     "results": "results",

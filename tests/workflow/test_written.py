@@ -67,9 +67,9 @@ def test_merge_keys_bring_what_is_not_there_itself(tmp_path):
 
 def test_nested_merges_cost_no_more_than_their_keys(tmp_path):
     levels = [f"a{n}: &a{n} {{<<: [*a{n - 1}, *a{n - 1}], k{n}: 1}}" for n in range(1, 40)]
-    begin = time.monotonic()
+    begin = time.process_time()
     content = yaml_of(tmp_path, "\n".join(["a0: &a0 {k0: 1}", *levels]))
-    assert time.monotonic() - begin < 5
+    assert time.process_time() - begin < 5
     assert len(content["a39"]) == 40
     with pytest.raises(BadInput, match="nested too deeply"):
         yaml_of(tmp_path, "a: &a {<<: *a}")
@@ -233,7 +233,7 @@ def test_as_many_runs_as_are_allowed_are_checked_in_time(tmp_path):
             validated({"mine.yaml": content})
         except BadInput as error:
             assert len(content["seeds"]) > MOST_RUNS
-            assert "a study has at most" in str(error)
+            assert "a study has at most" in str(error)  # noqa: PT017
         # 2 s are asked of the whole; what was quadratic took minutes.
         assert time.process_time() - begin < 10
     with pytest.raises(BadInput, match="at most 10,000"):

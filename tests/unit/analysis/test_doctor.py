@@ -16,7 +16,6 @@ from upswing.runs.files.ledger import ledger_path, ledgers, read_ledger, seal
 from upswing.study.errors import BadInput
 from upswing.study.matrix import RUN_FILES
 
-pytestmark = pytest.mark.xdist_group("recordings")
 CHANGED = "is not the file that was written: its checksum differs"
 RUN = "runs/balancing/table/alpha-0.1/seed-1"
 

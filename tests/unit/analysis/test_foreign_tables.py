@@ -33,7 +33,6 @@ from upswing.study.claims import Verdict
 from upswing.study.errors import BadInput
 from upswing.study.sweeps import groups, load_sweeps
 
-pytestmark = pytest.mark.xdist_group("recordings")
 RUN = "runs/balancing/table/alpha-0.1/seed-1"
 WINDOWS, TRAJECTORY = f"{RUN}.windows.parquet", f"{RUN}.trajectory.parquet"
 EXAMPLES = {"text": "a", "number": 0.5, "whole": 1, "truth": True, "texts": ["a"]}

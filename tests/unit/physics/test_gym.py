@@ -142,9 +142,9 @@ def test_gymnasium_finds_it_by_module_and_name():
 
 
 def test_without_gymnasium_upswing_works_and_the_environments_name_the_extra():
-    hidden = "import sys; sys.modules['gymnasium'] = None; import upswing.cli.main, upswing.runs.train, upswing"
+    hidden = "import sys; sys.modules['gymnasium'] = None; import upswing.cli.main, upswing.runs.train, upswing.physics"
     assert python(hidden).returncode == 0
-    failed = python(f"{hidden}.environments")
+    failed = python(f"{hidden}.gym")
     assert failed.returncode == 1
     assert failed.stderr.count("Traceback") == 1
     assert failed.stderr.splitlines()[-1] == (

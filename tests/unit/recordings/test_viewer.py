@@ -29,7 +29,6 @@ from upswing.recordings.viewer import FOLDER, write_viewer
 from upswing.report.page import write_report
 from upswing.study.ids import recording_id
 
-pytestmark = pytest.mark.xdist_group("viewer")
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
 LONG = 90_000
 """A browser that draws in software has so long to show a recording [ms]."""

@@ -23,8 +23,6 @@ from upswing.runs.study_file import read_study
 from upswing.study.config import load
 from upswing.study.errors import BadInput
 
-pytestmark = pytest.mark.xdist_group("viewer")
-
 
 @pytest.fixture(scope="module")
 def address(results):

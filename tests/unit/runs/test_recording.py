@@ -35,7 +35,6 @@ from upswing.study.claims import load_claims
 from upswing.study.errors import BadInput
 
 # One small study serves all tests of this file: on one worker.
-pytestmark = pytest.mark.xdist_group("recordings")
 
 
 # What is recorded.

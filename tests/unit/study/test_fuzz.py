@@ -188,9 +188,9 @@ def test_any_file_is_a_study_or_one_message(tmp_path_factory, content):
 def test_hostile_yaml_is_one_message_in_time_and_runs_nothing(tmp_path, text, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.yaml").write_text(text, "utf-8")
-    begin = time.monotonic()
+    begin = time.process_time()
     assert main(["check", "mine.yaml"]) == 2
-    assert time.monotonic() - begin < 2
+    assert time.process_time() - begin < 2
     errors = capsys.readouterr().err
     assert "mine.yaml" in errors
     assert "Traceback" not in errors
