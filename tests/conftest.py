@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import settings
 
 from tests.helpers import ARCHITECTURES
 from tests.leftovers import _nothing_left_running  # noqa: F401  a fixture of every session
@@ -22,6 +23,9 @@ from upswing.study.matrix import Matrix
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
+# The first call of what is compiled takes as long as compiling it: no example has a deadline.
+settings.register_profile("upswing", deadline=None)
+settings.load_profile("upswing")
 os.chdir(ROOT)  # as the project is used, from whichever folder the tests are run
 
 STUDY = {

@@ -50,7 +50,7 @@ def test_a_program_that_does_not_want_to_end_is_killed(monkeypatch):
     monkeypatch.setattr("upswing.recordings.processes.PATIENCE", 0.3)
     stubborn = "import signal, time; signal.signal(15, signal.SIG_IGN); print(1, flush=True); time.sleep(300)"
     with running([sys.executable, "-c", stubborn], stdout=subprocess.PIPE) as process:
-        process.stdout.read(1)
+        process.stdout.readline()
     assert process.returncode == -signal.SIGKILL
 
 

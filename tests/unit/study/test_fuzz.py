@@ -23,7 +23,7 @@ from upswing.study.sweeps import groups, load_sweeps
 from upswing.study.yaml_file import read_yaml
 
 MANY = settings(
-    max_examples=1_000, deadline=2_000, suppress_health_check=list(HealthCheck), derandomize=True
+    max_examples=1_000, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True
 )
 SOME = settings(MANY, max_examples=500)
 FEW = settings(MANY, max_examples=200)
