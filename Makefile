@@ -42,6 +42,7 @@ $(VENV)/.locked: requirements.lock | writable
 
 .PHONY: reproduce
 reproduce: install ## Run the whole study: figures, tables, recordings, report
+	@$(BIN)/upswing check config/config.yaml > /dev/null
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html"
 
@@ -57,6 +58,7 @@ unlock: install ## After a kill: let the next run begin, when no other is at wor
 .PHONY: study
 study: install ## Run another study: make study CONFIG=config/mine.yaml
 	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
+	@$(BIN)/upswing check "$(CONFIG)" > /dev/null
 	@$(SNAKEMAKE) --configfile "$(CONFIG)"
 
 .PHONY: smoke

@@ -15,11 +15,12 @@ from tests.workflow.test_workflow import BIN, SMALL, Study
 from upswing.cli.main import main
 from upswing.study.check import checked
 from upswing.study.claims import load_claims
-from upswing.study.config import MOST_RUNS, validated
+from upswing.study.config import MOST_RUNS, load, validated
 from upswing.study.errors import BadInput
-from upswing.study.matrix import Matrix
+from upswing.study.matrix import RUN_FILES, Matrix
 from upswing.study.names import alpha_text
 from upswing.study.results_folder import check_results
+from upswing.study.sweeps import groups, load_sweeps
 from upswing.study.yaml_file import read_yaml
 
 CLAIMS = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))
@@ -85,6 +86,10 @@ def test_nested_merges_cost_no_more_than_their_keys(tmp_path):
         ({"C1": 3}, "C1: 3: must hold keys and values"),
         ({"C1": {**CLAIMS["C1"], "parts": 3}}, "must be a list"),
         ({"C1": {**CLAIMS["C1"], "figure": "5"}}, "figure"),
+        ({"C1": {**CLAIMS["C1"], "figure": 10**30}}, "figure"),
+        ({"C1": {**CLAIMS["C1"], "statement": "a\0b"}}, "no control characters"),
+        ({"C2": {**CLAIMS["C2"], "parts": [{**CLAIMS["C2"]["parts"][0], "only_if": {"ties": "first"}}]}}, "or nothing is asked"),
+        ({"C2": {**CLAIMS["C2"], "parts": [{**CLAIMS["C2"]["parts"][0], "where": {"upright_share": {"at_least": 9}}}]}}, "upright_share lies between 0 and 1"),
     ],
 )  # fmt: skip
 def test_claims_are_checked_like_the_configuration(tmp_path, content, expected):
@@ -93,6 +98,56 @@ def test_claims_are_checked_like_the_configuration(tmp_path, content, expected):
     (tmp_path / "config.yaml").write_bytes((ROOT / "config/config.yaml").read_bytes())
     with pytest.raises(BadInput, match=re.escape(expected)):
         load_claims(path, validated({"small": SMALL}))
+
+
+CELL = "balancing/table/alpha-1"
+SWEEP = {"vary": ["ties"], "how": "grid", "seeds": 1, "cells": [CELL]}
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ({}, "must have at least 1"),
+        ({"a": {**SWEEP, "cells_of_singles": [CELL]}}, "stands in `cells` too"),
+        ({"selection": SWEEP}, "the rule of selection needs balancing/networks-5/alpha-1"),
+    ],
+)
+def test_sweeps_are_checked_like_the_configuration(tmp_path, content, expected):
+    path = tmp_path / "readings.yaml"
+    path.write_text(yaml.safe_dump(content), "utf-8")
+    with pytest.raises(BadInput, match=re.escape(expected)):
+        load_sweeps(path, validated({"small": SMALL}))
+
+
+def test_a_grid_of_one_reading_has_a_name_for_its_job(tmp_path):
+    path, study = tmp_path / "readings.yaml", validated({"small": SMALL})
+    path.write_text(yaml.safe_dump({"a": SWEEP}), "utf-8")
+    (group,) = groups(load_sweeps(path, study)["a"], study)
+    assert (group.name, len(group.members)) == ("all", 2)
+
+
+def test_all_problems_of_a_yaml_file_are_said_at_once(tmp_path):
+    with pytest.raises(BadInput) as caught:
+        yaml_of(tmp_path, "seeds: !!int x\n1: 2\na: {b: 1, b: !!bool y}\n")
+    lines = [re.search(r"line (\d)", problem)[1] for problem in caught.value.problems]
+    assert lines == ["1", "2", "3", "3"]
+
+
+def test_aliases_that_multiply_are_shown_in_time(tmp_path):
+    levels = [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 20)]
+    text = "\n".join(["a0: &a0 [x]", *levels, "tasks: *a19", "seeds: *a19"])
+    (tmp_path / "mine.yaml").write_text(text, "utf-8")
+    begin = time.monotonic()
+    with pytest.raises(BadInput, match=r"tasks: \[\[\["):
+        load(tmp_path / "mine.yaml")
+    assert time.monotonic() - begin < 5
+
+
+def test_many_problems_are_counted_and_not_all_shown():
+    with pytest.raises(BadInput, match=r"… and \d+ more$") as caught:
+        validated({"mine.yaml": {**SMALL, "seeds": [-1] * 1_000}})
+    assert len(caught.value.problems) >= 1_000
+    assert len(str(caught.value).splitlines()) == 102
 
 
 def test_claims_of_cells_that_another_study_here_has_are_fine():
@@ -171,12 +226,14 @@ def test_braces_in_a_text_are_no_wildcard(tmp_path):
 
 @pytest.mark.parametrize(
     "folder",
-    ["/", "..", ".", "src", ".git", "src/upswing", "file", "loop", "a\nb", "a{seed}", "", "full", "nowhere", "full/../src"],
+    ["/", "..", ".", "src", ".git", "src/upswing", "file", "loop", "a\nb", "a{seed}", "", "full", "nowhere", "full/../src", "-x", "~/x", "s3://x", "a//b", "a/", "ours/tables", "ours/runs/a", "file/below"],
 )  # fmt: skip
 def test_a_folder_that_is_not_for_results_is_refused(tmp_path, monkeypatch, folder):
     monkeypatch.chdir(tmp_path)
     for name in ("src/upswing", ".git", "full", "config"):
         Path(name).mkdir(parents=True)
+    Path("ours").mkdir()
+    Path("ours/study.json").touch()
     Path("file").touch()
     Path("full/thesis.doc").touch()
     Path("loop").symlink_to("loop")
@@ -240,6 +297,36 @@ def test_as_many_runs_as_are_allowed_are_checked_in_time(tmp_path):
         validated({"mine.yaml": {**many, "seeds": MOST_RUNS + 1}})
     with pytest.raises(BadInput, match="come to 20,000 runs; a study has at most 10,000"):
         validated({"mine.yaml": {**many, "experiments": [{"tasks": ["balancing"], "architectures": ["idle", "random"]}]}})  # fmt: skip
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("size", [15, 1_000])
+def test_as_many_runs_as_are_allowed_are_planned_within_a_minute(tmp_path, size):
+    """The worst case: all of them in one cell. What was quadratic took more than two minutes."""
+    study = Study(tmp_path)
+    experiments = [{"tasks": ["balancing"], "architectures": ["idle"]}]
+    study.write({**SMALL, "seeds": MOST_RUNS, "seeds_per_job": size, "experiments": experiments})
+    begin = time.monotonic()
+    done = study.snakemake("--dry-run", "--quiet", "all")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert time.monotonic() - begin < 60
+
+
+def test_of_every_job_the_first_missing_file_is_wanted(tmp_path):
+    matrix = Matrix(validated({"small": {**SMALL, "seeds": 4}}))
+    asked = list(matrix.wanted(tmp_path))
+    assert len(asked) == len(matrix.cells) * len(matrix.blocks) == len(list(matrix.first_runs))
+    for run in matrix.runs:
+        for kind in RUN_FILES:
+            (tmp_path / f"runs/{run}.{kind}").parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / f"runs/{run}.{kind}").touch()
+    assert list(matrix.wanted(tmp_path)) == asked
+    for run in list(matrix.runs):
+        for kind in RUN_FILES:
+            path = tmp_path / f"runs/{run}.{kind}"
+            path.unlink()
+            assert str(path) in set(matrix.wanted(tmp_path))
+            path.touch()
 
 
 def test_check_needs_no_module_that_computes(tmp_path):

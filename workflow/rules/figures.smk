@@ -4,9 +4,9 @@
 def figure_inputs(wildcards):
     cells = FIGURES[wildcards.figure].cells or MATRIX.cells
     runs = [
-        MATRIX.cells[cell].run(seed)
+        MATRIX.cells[cell].run(block.seeds[0])
         for cell in cells
-        for seed in MATRIX.cells[cell].seeds
+        for block in MATRIX.blocks
     ]
     tables = [
         f"{RESULTS}/{table}"

@@ -21,7 +21,7 @@ from upswing.study.cells import check_cells
 from upswing.study.config import Strict, Study, listed, once
 from upswing.study.errors import BadInput, explained, near
 from upswing.study.measured import MEASURES
-from upswing.study.names import CellName, ClaimName
+from upswing.study.names import CellName, ClaimName, Text
 from upswing.study.readings import Readings, options_of
 from upswing.study.yaml_file import read_yaml
 
@@ -119,9 +119,9 @@ class Bound(Strict):
 class Part(Strict):
     """One thing that a claim says, as a comparison with a threshold."""
 
-    says: str
+    says: Text
     kind: Kind
-    because: str
+    because: Text
     measure: Measure | None = None
     cells: Cells = ()
     each: Cells = ()  # the part once for each of these cells
@@ -155,6 +155,9 @@ class Part(Strict):
             if option not in options_of(name):
                 options = ", ".join(map(str, options_of(name)))
                 raise ValueError(f"only_if: {name}: {option}: no such option; there are {options}")
+        for name, bound in (*self.where.items(), *self.among.items()):
+            if name.endswith("_share") and not all(0 <= x <= 1 for _, x in bound if x is not None):
+                raise ValueError(f"{name} lies between 0 and 1, and so does what bounds it")
         weaker = self.partly <= self.threshold if self.is_lower else self.partly >= self.threshold
         if not weaker:
             raise ValueError("`partly` must be the weaker of the two thresholds")
@@ -220,12 +223,18 @@ class Part(Strict):
 class Claim(Strict):
     """A claim of the thesis."""
 
-    statement: str
-    section: str
-    figure: Annotated[int, Field(ge=1)] | None
+    statement: Text
+    section: Text
+    figure: Annotated[int, Field(ge=5, le=11)] | None  # of the thesis
     cell: CellName | None  # the cell whose worst, median and best run show it
-    note: str = ""  # what a reader of the verdict must know
+    note: Text = ""  # what a reader of the verdict must know
     parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _is_always_asked(self) -> Self:
+        if all(part.only_if for part in self.parts):
+            raise ValueError("one of the parts must stand without `only_if`, or nothing is asked")
+        return self
 
 
 Claimed = Annotated[dict[ClaimName, Claim], Field(min_length=1)]

@@ -25,6 +25,12 @@ EXPECTED = {
 
 Place = tuple[int | str, ...]
 
+MOST_SHOWN = 100
+"""Of the problems: who listed 10,000 seeds wrongly need not read so many lines."""
+
+LONGEST = 60
+"""Of a value that is shown [characters]."""
+
 
 class BadInput(ValueError):
     """Input that cannot be used; its text says all that is wrong with it."""
@@ -32,7 +38,10 @@ class BadInput(ValueError):
     def __init__(self, problems: Sequence[str]) -> None:
         self.problems = list(problems)
         count = "1 problem" if len(self.problems) == 1 else f"{len(self.problems)} problems"
-        super().__init__("\n".join([f"{count}:", *(f"  {problem}" for problem in self.problems)]))
+        lines = [f"  {problem}" for problem in self.problems[:MOST_SHOWN]]
+        if more := len(self.problems) - len(lines):
+            lines.append(f"  … and {more} more")
+        super().__init__("\n".join([f"{count}:", *lines]))
 
 
 def explained(
@@ -61,12 +70,19 @@ def near(name: object, known: Iterable[str]) -> str:
 
 
 def shown(value: Any) -> str:
-    """A value as a reader would recognise it, at most 60 characters."""
+    """A value as a reader would recognise it, at most ``LONGEST`` characters.
+
+    It is written piece by piece and no further: aliases in YAML make a few lines a value without end.
+    """
+    text = ""
     try:
-        text = json.dumps(value, ensure_ascii=False)
-    except (TypeError, ValueError):
-        text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+        for piece in json.JSONEncoder(ensure_ascii=False, default=str).iterencode(value):
+            text += piece
+            if len(text) > LONGEST:
+                break
+    except (TypeError, ValueError):  # a key that is no text, or a value that holds itself
+        text = text or str(type(value).__name__)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
 def key_of(place: Place) -> str:

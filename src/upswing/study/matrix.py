@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, product
+from pathlib import Path
 
 from upswing.study.config import Experiment, Study
 from upswing.study.spec import NamedArchitecture, NamedTask, Spec, cell_id
@@ -53,6 +54,28 @@ class Matrix:
         for spec in self.cells.values():
             for seed in spec.seeds:
                 yield spec.run(seed)
+
+    @property
+    def first_runs(self) -> Iterator[str]:
+        """The id of the first run of every job; it stands for all, which are written together."""
+        for spec in self.cells.values():
+            for block in self.blocks:
+                yield spec.run(block.seeds[0])
+
+    def wanted(self, results: Path) -> Iterator[str]:
+        """A file of every job, below ``results``: the first that is missing there, or else its first.
+
+        Who has one file of a job has them all. Snakemake compares each file that it is asked for with
+        each that some rule makes, and so to ask for all of them takes a time that grows with the square
+        of the runs.
+        """
+        for spec in self.cells.values():
+            folder = results / "runs" / spec.cell
+            there = {path.name for path in folder.iterdir()} if folder.is_dir() else set[str]()
+            for block in self.blocks:
+                names = [f"seed-{seed}.{kind}" for seed in block.seeds for kind in RUN_FILES]
+                chosen = next((name for name in names if name not in there), names[0])
+                yield f"{results}/runs/{spec.cell}/{chosen}"
 
     def spec(self, task: str, name: str, alpha: float | None, seeds: tuple[int, ...]) -> Spec:
         """The specification of a task, an architecture and a step size, for some seeds."""

@@ -35,6 +35,12 @@ def _claimed(name: str) -> str:
     return name
 
 
+def _written(text: str) -> str:
+    if not text.replace("\n", " ").isprintable():
+        raise ValueError("a text has no control characters")
+    return text
+
+
 def _stepped(alpha: float) -> float:
     if float(f"{alpha:.{DIGITS}g}") != alpha:
         raise ValueError(f"α has at most {DIGITS} digits; write {alpha:.{DIGITS}g}")
@@ -68,6 +74,9 @@ def alpha_text(alpha: float | None) -> str:
 
 Name = Annotated[str, AfterValidator(_named)]
 """Of a task, an architecture or a sweep."""
+
+Text = Annotated[str, AfterValidator(_written)]
+"""For readers: it names nothing, but a NUL in it would still end a command."""
 
 ClaimName = Annotated[str, AfterValidator(_claimed)]
 CellName = Annotated[str, AfterValidator(_cell)]

@@ -52,6 +52,11 @@ def _reason(folder: Path) -> str | None:
         return "is the project's own folder, or above it"
     if place.is_relative_to(here) and place.relative_to(here).parts[0] in PROJECT:
         return f"is in {place.relative_to(here).parts[0]}/, which is not for results"
+    if any(above.exists() and not above.is_dir() for above in place.parents):
+        return "is below a file"
+    for study, part in zip(place.parents, (place, *place.parents), strict=False):
+        if part.name in OURS and (study / MARKER).exists():
+            return f"is a part of the results in {study.name}"
     if not place.is_dir() or (place / MARKER).exists():
         return None
     try:

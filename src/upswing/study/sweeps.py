@@ -25,6 +25,16 @@ Pair = Annotated[tuple[str, ...], BeforeValidator(listed), Field(min_length=2, m
 MOST_READINGS = 5_000
 """Of a grid: a job for every few of them."""
 
+SELECTION = "selection"
+"""The sweep by which the networks' default is chosen."""
+
+CELLS_OF_SELECTION = {
+    "p7": "balancing/networks-5/alpha-1",
+    "p9": "full-control/networks-30/alpha-1",
+    "p11": "full-control/modular-networks-5/alpha-1",
+}
+"""The cells of figures 7, 9 and 11, which the rule asks."""
+
 Overrides = dict[str, Any]
 """Readings that differ from the study's, by name."""
 
@@ -47,7 +57,7 @@ class Sweep(Strict):
     )
 
 
-class Sweeps(RootModel[dict[Name, Sweep]]):
+class Sweeps(RootModel[Annotated[dict[Name, Sweep], Field(min_length=1)]]):
     """All sweeps by name."""
 
 
@@ -83,6 +93,14 @@ def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
         if sweep.how == "grid" and readings > MOST_READINGS:
             too_many = f"a grid of these has {readings:,} readings; at most {MOST_READINGS:,}"
             problems.append(problem(str(path), f"{name}.vary", sweep.vary, too_many))
+        if twice := sorted(set(sweep.cells) & set(sweep.cells_of_singles)):
+            double = "stands in `cells` too; keep one"
+            problems.append(problem(str(path), f"{name}.cells_of_singles", twice[0], double))
+        if name == SELECTION and (
+            lost := sorted(set(CELLS_OF_SELECTION.values()) - set(sweep.cells))
+        ):
+            needs = f"the rule of selection needs {', '.join(lost)} too"
+            problems.append(problem(str(path), f"{name}.cells", sweep.cells, needs))
     if problems:
         raise BadInput(problems)
     check_cells(
@@ -108,7 +126,7 @@ def groups(sweep: Sweep, study: Study) -> list[Group]:
     if sweep.how == "grid":
         *outer, last = sweep.vary
         return [
-            Group(_name(chosen), [{**chosen, last: option} for option in options_of(last)])
+            Group(_name(chosen) or "all", [{**chosen, last: option} for option in options_of(last)])
             for values in product(*(options_of(name) for name in outer))
             for chosen in [dict(zip(outer, values, strict=True))]
         ]

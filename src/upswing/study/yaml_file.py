@@ -66,7 +66,8 @@ def read_yaml(path: Path) -> dict[str, Any]:
     """The mapping in a YAML file.
 
     Raises:
-        BadInput: it cannot be read, is not YAML, or holds something else; a key stands there twice.
+        BadInput: it cannot be read, is not YAML, or holds something else; or else every key that stands
+            there twice or is no text, and every scalar that cannot be read.
     """
     try:
         text = path.read_text(encoding="utf-8")
@@ -80,7 +81,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
         loader.name = str(path)
         node = loader.get_single_node()
         if node is not None:
-            _check_keys(str(path), node)
+            _check_parts(loader, node)
         content = None if node is None else loader.construct_document(node)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
@@ -94,30 +95,35 @@ def read_yaml(path: Path) -> dict[str, Any]:
     return content
 
 
-def _check_keys(name: str, root: yaml.Node) -> None:
-    """Every key of every mapping is text, and stands there once."""
+def _check_parts(loader: _Loader, root: yaml.Node) -> None:
+    """Every key of every mapping is text and stands there once, and every scalar can be read."""
+    name, problems = loader.name, list[tuple[int, str]]()
     waiting, seen = [root], set[int]()
     while waiting:
         node = waiting.pop()
         if id(node) in seen:
             continue
         seen.add(id(node))
-        if isinstance(node, yaml.SequenceNode):
+        if isinstance(node, yaml.ScalarNode) and node.tag != TEXT:
+            try:
+                loader.construct_object(node)
+            except BadInput as error:
+                problems += [(_line(node), problem) for problem in error.problems]
+        elif isinstance(node, yaml.SequenceNode):
             waiting.extend(node.value)
         elif isinstance(node, yaml.MappingNode):
             keys = set[Hashable]()
             for key, value in node.value:
                 written = key.value if isinstance(key, yaml.ScalarNode) else f"a {key.id}"
+                at = f"{name}: line {_line(key)}"
                 if key.tag not in (TEXT, MERGE):
-                    raise BadInput(
-                        [f"{name}: line {_line(key)}: {shown(written)}: a key must be text"]
-                    )
-                if written in keys:
-                    raise BadInput(
-                        [f"{name}: line {_line(key)}: {written}: duplicate key; keep one"]
-                    )
+                    problems.append((_line(key), f"{at}: {shown(written)}: a key must be text"))
+                elif written in keys:
+                    problems.append((_line(key), f"{at}: {written}: duplicate key; keep one"))
                 keys.add(written)
                 waiting.append(value)
+    if problems:
+        raise BadInput([text for _, text in sorted(problems)])
 
 
 def _line(node: yaml.Node) -> int:

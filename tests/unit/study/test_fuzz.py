@@ -1,5 +1,6 @@
 """Bad input in quantity: whatever is written, the answer is a study or one message that names the key."""
 
+import contextlib
 import copy
 import json
 import re
@@ -18,6 +19,7 @@ from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
 from upswing.study.measured import MEASURES
+from upswing.study.results_folder import check_results
 from upswing.study.spec import parse
 from upswing.study.sweeps import groups, load_sweeps
 from upswing.study.yaml_file import read_yaml
@@ -154,6 +156,47 @@ def test_malformed_sweeps_are_sweeps_or_one_message(tmp_path_factory, content):
         assert SAFE.fullmatch(name)
         for group in groups(sweep, STUDY):  # each is a file's name and a word of a command
             assert re.fullmatch(r"[A-Za-z0-9._-]+", group.name)
+
+
+PIECES = st.sampled_from([*TRICKS, "src", ".git", "file", "loop", "own", "tables", "new", "~", "é"])
+folders = st.one_of(
+    st.text(max_size=20),
+    st.lists(PIECES, min_size=1, max_size=4).map("/".join),
+    st.sampled_from(TRICKS),
+)
+
+
+@SOME
+@given(folder=folders, title=st.one_of(st.text(max_size=20), st.sampled_from(TRICKS)))
+def test_any_folder_is_fit_for_results_or_one_message_and_nothing_is_made(
+    tmp_path_factory, folder, title
+):
+    """A folder that is accepted is below the one it is run in, and none of the project's own."""
+    home = tmp_path_factory.getbasetemp() / "project"
+    for name in ("src/upswing", ".git", "own"):
+        (home / name).mkdir(parents=True, exist_ok=True)
+    (home / "file").touch()
+    (home / "own/study.json").touch()
+    if not (home / "loop").is_symlink():
+        (home / "loop").symlink_to("loop")
+    before = sorted(home.rglob("*"))
+    experiments = [{**VALID["experiments"][0], "title": title}]
+    content = {**VALID, "results": folder, "experiments": experiments}
+    with contextlib.chdir(home):
+        try:
+            study = validated({"mine.yaml": content})
+            check_results(study.results, "mine.yaml")
+        except BadInput as problem:
+            wrong = [line for line in problem.problems if not ONE_LINE.fullmatch(line)]
+            assert wrong == []
+        else:
+            place = Path(folder).resolve()
+            assert not home.is_relative_to(place)
+            assert not folder.startswith(("-", "~"))
+            for name in ("src", ".git", "file", "own/tables"):
+                assert not place.is_relative_to(home / name)
+            assert "\x00" not in study.experiments[0].title
+    assert sorted(home.rglob("*")) == before
 
 
 @FEW

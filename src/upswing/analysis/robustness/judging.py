@@ -239,5 +239,6 @@ def summary(judged: pd.DataFrame) -> pd.DataFrame:
                 },
             }
         )
-    rows.sort(key=lambda row: int(str(row["claim"])[1:]))
+    # C2 before C10, and any other name in its place.
+    rows.sort(key=lambda row: (len(str(row["claim"])), str(row["claim"])))
     return pd.DataFrame(rows)

@@ -13,14 +13,9 @@ import json
 import pandas as pd
 
 from upswing.runs.success import succeeds
+from upswing.study.sweeps import CELLS_OF_SELECTION, SELECTION
 
-SWEEP = "selection"
-CELLS = {
-    "p7": "balancing/networks-5/alpha-1",
-    "p9": "full-control/networks-30/alpha-1",
-    "p11": "full-control/modular-networks-5/alpha-1",
-}
-"""The cells of figures 7, 9 and 11."""
+SWEEP, CELLS = SELECTION, CELLS_OF_SELECTION
 
 
 def select(runs: pd.DataFrame) -> pd.DataFrame:
