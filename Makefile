@@ -10,6 +10,8 @@ CORES ?= all
 # --logger rich: a bar for every rule in a terminal.
 SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default --logger rich
 INSTALLED := $(VENV)/.installed
+# A study, checked first: Snakemake would read what is not YAML, or surprising YAML, in words of its own.
+run = $(BIN)/upswing check "$(1)" > /dev/null && $(SNAKEMAKE) --configfile "$(1)"
 
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
@@ -42,12 +44,12 @@ $(VENV)/.locked: requirements.lock | writable
 
 .PHONY: reproduce
 reproduce: install ## Run the whole study: figures, tables, recordings, report
-	@$(BIN)/upswing check config/config.yaml > /dev/null
-	@$(SNAKEMAKE) --configfile config/config.yaml
+	@$(call run,config/config.yaml)
 	@echo "The report is at results/report/index.html"
 
 .PHONY: slurm
 slurm: install ## Run the whole study on a Slurm cluster (see workflow/README.md)
+	@$(BIN)/upswing check config/config.yaml > /dev/null
 	@PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml
 	@echo "The report is at results/report/index.html"
 
@@ -58,24 +60,23 @@ unlock: install ## After a kill: let the next run begin, when no other is at wor
 .PHONY: study
 study: install ## Run another study: make study CONFIG=config/mine.yaml
 	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
-	@$(BIN)/upswing check "$(CONFIG)" > /dev/null
-	@$(SNAKEMAKE) --configfile "$(CONFIG)"
+	@$(call run,$(CONFIG))
 
 .PHONY: smoke
 smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
-	@$(SNAKEMAKE) --configfile config/smoke.yaml
+	@$(call run,config/smoke.yaml)
 	@echo "The report is at results/smoke/report/index.html"
 
 .PHONY: readings
 readings: install ## Judge every claim under other readings too (half an hour on 2 cores; goes on where it stopped)
-	@$(SNAKEMAKE) --configfile config/config.yaml -- study
+	@$(call run,config/config.yaml) -- study
 	@$(SNAKEMAKE) --configfile config/config.yaml -- readings
 	@$(SNAKEMAKE) --configfile config/config.yaml
 	@echo "The report is at results/report/index.html#robust"
 
 .PHONY: beyond
 beyond: install ## Run what goes beyond the thesis (half an hour on 2 cores), into results/beyond
-	@$(SNAKEMAKE) --configfile config/beyond.yaml
+	@$(call run,config/beyond.yaml)
 	@if test -e results/report/index.html; then $(SNAKEMAKE) --configfile config/config.yaml; fi
 	@echo "The chapter is at results/beyond/report/index.html"
 

@@ -1,4 +1,4 @@
-# The study from configuration to report. Each rule calls one verb of the command `upswing`.
+# The study from configuration to report. Each rule calls one subcommand of `upswing`.
 
 import os
 import shlex
@@ -21,11 +21,8 @@ from upswing.study import jobs
 from upswing.study.check import asked
 from upswing.study.claims import canonical_claims
 from upswing.figures import FIGURES, drawable
-from upswing.study.matrix import (
-    RUN_FILES,
-    Matrix,
-    canonical_search,
-)
+from upswing.study.ids import RUN_FILES, file_of
+from upswing.study.matrix import Matrix, canonical_search
 from upswing.study.errors import BadInput
 from upswing.recordings.names import comparison_names
 from upswing.runs.records import restore

@@ -98,7 +98,7 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
     """Every job, in an order in which each finds what it needs."""
     results = str(told["results"])
 
-    def verb(*words: str, compiled: bool = False) -> Callable[[], None]:
+    def subcommand(*words: str, compiled: bool = False) -> Callable[[], None]:
         def run() -> None:
             if compiled:  # into a folder of its own, for it would take minutes otherwise
                 numba.config.DISABLE_JIT = False  # type: ignore[attr-defined]
@@ -111,32 +111,32 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
 
         return run
 
-    yield "study", verb("study", str(told["study"]), "--results", results)
+    yield "study", subcommand("study", str(told["study"]), "--results", results)
     for cell, spec in told["cells"].items():  # type: ignore[attr-defined]
-        yield f"train {cell}", verb("train", spec, "--results", results)
-    yield "tables", verb("tables", results)
-    yield "verdicts", verb("verdicts", results, "--claims", str(claims))
+        yield f"train {cell}", subcommand("train", spec, "--results", results)
+    yield "tables", subcommand("tables", results)
+    yield "verdicts", subcommand("verdicts", results, "--claims", str(claims))
     if told["changes"]:
-        yield "bound", verb("bound", results, compiled=True)
-        yield "changes", verb("changes", results)
+        yield "bound", subcommand("bound", results, compiled=True)
+        yield "changes", subcommand("changes", results)
     if told["search"]:
-        yield "shortest", verb("shortest", str(told["study"]), "--results", results)
+        yield "shortest", subcommand("shortest", str(told["study"]), "--results", results)
     for figure in told["figures"]:  # type: ignore[attr-defined]
-        yield f"figure {figure}", verb("figure", figure, results)
-    yield "comparisons", verb("comparisons", results)
-    yield "viewer", verb("viewer", results, "--templates", str(templates))
+        yield f"figure {figure}", subcommand("figure", figure, results)
+    yield "comparisons", subcommand("comparisons", results)
+    yield "viewer", subcommand("viewer", results, "--templates", str(templates))
     for name, groups in told["sweeps"].items():  # type: ignore[attr-defined]
         for group in groups:
             yield (
                 f"sweep {name}",
-                verb("sweep", name, group, results, "--sweeps", str(readings)),
+                subcommand("sweep", name, group, results, "--sweeps", str(readings)),
             )
     if told["sweeps"]:
         yield (
             "readings",
-            verb("readings", results, "--sweeps", str(readings), "--claims", str(claims)),
+            subcommand("readings", results, "--sweeps", str(readings), "--claims", str(claims)),
         )
-    yield "report", verb("report", results, "--templates", str(templates))
+    yield "report", subcommand("report", results, "--templates", str(templates))
 
 
 def _make_small() -> None:

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from tests.paths import ROOT
-from tests.workflow.test_workflow import Study
+from tests.workflow.small_study import Study
 from upswing.analysis.ablation import EVERY_TIME
 from upswing.analysis.beyond_tables import CHANGES, CHOSEN, SHORTEST
 from upswing.analysis.search import chosen, upright_shares
@@ -270,8 +270,8 @@ def test_every_part_there_is_is_used():
     ]
     assert len(files) >= 3
     used = [architecture for path in files for architecture in load(path).architectures.values()]
-    for room, key in (("learners", "learner"), ("codings", "coding"), ("methods", "method")):
-        unused = set(parts(room)) - {getattr(one, key) for one in used}
+    for kind, key in (("learners", "learner"), ("codings", "coding"), ("methods", "method")):
+        unused = set(parts(kind)) - {getattr(one, key) for one in used}
         assert not unused, (
             f"name {unused} in config/beyond.yaml, or in a study of your own in config/"
         )

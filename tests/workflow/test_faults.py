@@ -14,7 +14,7 @@ import psutil
 import pytest
 
 from tests.helpers import make_spec
-from tests.workflow.test_workflow import BIN, Study
+from tests.workflow.small_study import BIN, Study
 from upswing.analysis.doctor import examine
 from upswing.runs.train import RunsFailed, train
 

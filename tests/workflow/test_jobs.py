@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from functools import cache
@@ -49,7 +50,7 @@ def small(name, folder):
     return path
 
 
-def small_readings(folder, name):
+def small_readings(folder):
     """The sweeps that judge claims, with one seed and one reading that is varied."""
     content = yaml.safe_load((ROOT / "config/readings.yaml").read_text("utf-8"))
     del content[
@@ -58,7 +59,9 @@ def small_readings(folder, name):
     for sweep in content.values():
         sweep |= {"seeds": 1, "how": "pairs", "vary": sweep["vary"][:1], "without": []}
     path = folder / "readings.yaml"
-    path.write_text(yaml.safe_dump(content if name == "config" else {}), "utf-8")
+    path.write_text(yaml.safe_dump(content), "utf-8")
+    # The study whose cells they are: another study sweeps none of them.
+    shutil.copy(ROOT / "config/config.yaml", folder / "thesis.yaml")
     return path
 
 
@@ -66,7 +69,7 @@ def small_readings(folder, name):
 def ran(request, tmp_path_factory):
     """A small study of a configuration, and what each of its jobs imported."""
     folder = tmp_path_factory.mktemp(request.param)
-    config, readings = small(request.param, folder), small_readings(folder, request.param)
+    config, readings = small(request.param, folder), small_readings(folder)
     done = subprocess.run(
         [sys.executable, "-m", "tests.workflow.imports_of_jobs", config, readings,
          ROOT / "config/claims.yaml", ROOT / "report"],

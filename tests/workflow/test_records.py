@@ -6,7 +6,7 @@ from base64 import urlsafe_b64encode
 
 import pytest
 
-from tests.workflow.test_workflow import Study
+from tests.workflow.small_study import Study
 from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.train import train

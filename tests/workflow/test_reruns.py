@@ -3,15 +3,13 @@
 import os
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pandas as pd
 import pytest
 import yaml
 
-from tests.paths import ROOT
-from tests.workflow.test_workflow import BIN, FIGURES_OF_SMALL, SMALL, Study
+from tests.workflow.small_study import FIGURES_OF_SMALL, SMALL, Edited
 from upswing.analysis.doctor import delete_orphans, examine
 
 CELLS = 5
@@ -24,46 +22,6 @@ FOLLOWS = {
     "report": 1,
 }
 TRAIN = "train_seeds_0_to_1"
-
-
-class Edited(Study):
-    """A study with a copy of the package, which it runs and a test may edit."""
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder)
-        shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__"))
-        self.write({**SMALL, "seeds": 2})
-
-    def snakemake(self, *arguments, versions=""):
-        environment = {
-            **os.environ,
-            "PATH": f"{BIN}:{os.environ['PATH']}",
-            "PYTHONPATH": f"{versions}{self.folder / 'src'}",
-        }
-        return subprocess.run(
-            [
-                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
-            ],
-            cwd=self.folder, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
-
-    def plan(self, **more):
-        """The jobs that would run, by rule, without running them."""
-        done = self.snakemake("--dry-run", **more)
-        output = done.stdout + done.stderr
-        assert done.returncode == 0, output
-        planned = {}
-        for rule in re.findall(r"^(?:local)?rule (\w+):", output, re.MULTILINE):
-            planned[rule] = planned.get(rule, 0) + 1
-        planned.pop("all", None)
-        return planned
-
-    def edit(self, file, old, new):
-        path = self.folder / file
-        text = path.read_text("utf-8")
-        assert old in text, f"{old!r} is no longer in {file}"
-        path.write_text(text.replace(old, new, 1), "utf-8")
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ import re
 import pytest
 import yaml
 
-from tests.workflow.test_reruns import Edited
+from tests.workflow.small_study import Edited
 
 CONFIG = {
     "results": "results",

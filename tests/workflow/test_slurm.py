@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from tests.workflow.test_workflow import BIN, SMALL, Study
+from tests.workflow.small_study import BIN, SMALL, Study
 
 pytestmark = pytest.mark.heavy
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "munged")

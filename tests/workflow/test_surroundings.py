@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.paths import ROOT
-from tests.workflow.test_workflow import BIN, SMALL, Study
+from tests.workflow.small_study import BIN, SMALL, Study
 
 BARE = {
     "PATH": "/usr/bin:/bin",

@@ -2,10 +2,7 @@
 
 import os
 import re
-import shutil
 import subprocess
-import sys
-from pathlib import Path
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -13,72 +10,8 @@ import pytest
 import yaml
 
 from tests.paths import ROOT
+from tests.workflow.small_study import BIN, FIGURES_OF_SMALL, SMALL, Study
 from upswing.figures import FIGURES
-
-BIN = Path(sys.executable).parent
-KEPT = ("Snakefile", "workflow", "report", "config")
-SMALL = {
-    "results": "results",
-    "seeds": 2,
-    "seeds_per_job": 2,
-    "tasks": {
-        "balancing": {"kind": "balancing", "steps": 6_000},
-        "full-control": {"kind": "full-control", "steps": 6_000},
-    },
-    "architectures": {
-        "table": {"learner": "table"},
-        "networks-5": {"learner": "networks", "hidden": [5]},
-        "idle": {"learner": "control", "behaviour": "idle"},
-        "random": {"learner": "control", "behaviour": "random"},
-    },
-    "experiments": [
-        {"tasks": ["balancing"], "architectures": ["table", "networks-5"], "alphas": [1]},
-        {"tasks": ["full-control"], "architectures": ["table"], "alphas": [0.001]},
-        {"tasks": ["full-control"], "architectures": ["idle", "random"]},
-    ],
-}
-FIGURES_OF_SMALL = 6  # 5, 7 and 8 have all their cells, and there are three of ours
-
-
-class Study:
-    """A checkout's workflow in a temporary folder."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        for name in KEPT:
-            source = ROOT / name
-            copy = shutil.copytree if source.is_dir() else shutil.copy
-            copy(source, folder / name)
-        self.write(SMALL)
-
-    def write(self, content) -> None:
-        text = content if isinstance(content, str) else yaml.safe_dump(content)
-        (self.folder / "config/small.yaml").write_text(text, "utf-8")
-
-    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [
-                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
-            ],
-            cwd=self.folder,
-            env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"},
-            capture_output=True,
-            text=True,
-            check=False,
-        )  # fmt: skip
-
-    def jobs(self, *arguments: str) -> dict[str, int]:
-        """Run the study and count the jobs that ran, by rule."""
-        done = self.snakemake(*arguments)
-        output = done.stdout + done.stderr
-        assert done.returncode == 0, output
-        ran: dict[str, int] = {}
-        for rule in re.findall(r"^(?:local)?rule (\w+):", output, re.MULTILINE):
-            ran[rule] = ran.get(rule, 0) + 1
-        ran.pop("all", None)
-        return ran
-
 
 EVERYTHING = {
     "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparisons": 1,

@@ -11,13 +11,14 @@ import pytest
 import yaml
 
 from tests.paths import ROOT
-from tests.workflow.test_workflow import BIN, SMALL, Study
+from tests.workflow.small_study import BIN, SMALL, Study
 from upswing.cli.main import main
 from upswing.study.check import checked
 from upswing.study.claims import load_claims
 from upswing.study.config import MOST_RUNS, load, validated
 from upswing.study.errors import BadInput
-from upswing.study.matrix import RUN_FILES, Matrix
+from upswing.study.ids import RUN_FILES
+from upswing.study.matrix import Matrix
 from upswing.study.names import alpha_text
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import groups, load_sweeps

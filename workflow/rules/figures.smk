@@ -13,11 +13,10 @@ def figure_inputs(wildcards):
         for table in FIGURES[wildcards.figure].tables
         if table not in (SHORTEST, CHOSEN) or STUDY.search
     ]
-    return tables + expand(
-        f"{RESULTS}/runs/{{run}}.{{kind}}",
-        run=runs,
-        kind=FIGURES[wildcards.figure].files,
-    )
+    kinds = FIGURES[wildcards.figure].files
+    return tables + [
+        f"{RESULTS}/{file_of(run, kind)}" for run in runs for kind in kinds
+    ]
 
 
 rule figure:

@@ -18,7 +18,7 @@ rule tables:
     input:
         f"{RESULTS}/study.json",
         # A file of every job stands for all of it (as in figures.smk).
-        expand(f"{RESULTS}/runs/{{run}}.windows.parquet", run=MATRIX.first_runs),
+        [f"{RESULTS}/{file_of(run, 'windows.parquet')}" for run in MATRIX.first_runs],
     output:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/cells.parquet",

@@ -12,6 +12,7 @@ from upswing.runs.files.tables import CELLS, MEASURES, NULLABLE, RUNS, write_tab
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.success import SUCCESS
 from upswing.study.errors import BadInput
+from upswing.study.ids import cell_of, file_of, recording_of
 from upswing.study.matrix import Matrix
 from upswing.study.spec import parse
 
@@ -33,7 +34,7 @@ def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
     found, problems = [], []
     for cell in matrix.cells.values():
         for seed in cell.seeds:
-            path = results / "runs" / f"{cell.run(seed)}.windows.parquet"
+            path = results / file_of(cell.run(seed), "windows.parquet")
             try:
                 if not path.exists():
                     raise BadInput([f"{path}: missing; run the study again to make it"])
@@ -65,7 +66,7 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
         ["task", "architecture", "alpha"], sort=False, dropna=False
     ):
         row: dict[str, Any] = {
-            "cell": group["run"].iloc[0].rsplit("/", 1)[0],
+            "cell": cell_of(group["run"].iloc[0]),
             "task": task,
             "architecture": architecture,
             "alpha": alpha,
@@ -99,7 +100,7 @@ def _row(found: dict[str, Any]) -> dict[str, Any]:
     return {
         **spec.columns(spec.seeds[0]),
         **outcome,
-        "recording": f"runs/{found['run']}.rrd",
+        "recording": recording_of(found["run"]),
         "git_commit": made["git_commit"],
         "dirty": made["dirty"],
         "spec": found["spec"],

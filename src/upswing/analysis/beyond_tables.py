@@ -1,4 +1,4 @@
-"""Where the tables of this room stand, and what is in them; light: the page depends on nothing more."""
+"""Where the tables of what goes beyond the thesis stand, and what is in them; the page needs no more."""
 
 CHANGES = "tables/changes.parquet"
 SHORTEST = "tables/shortest.parquet"

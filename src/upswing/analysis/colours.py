@@ -1,5 +1,7 @@
 """One colour for an architecture, in figures and recordings alike."""
 
+from upswing.study.ids import CellId
+
 # Okabe and Ito's palette, told apart by colour-blind readers too; one colour for an architecture.
 COLOURS = {
     "table": "#0072B2",
@@ -15,7 +17,7 @@ COLOURS = {
 
 def colour(cell: str) -> str:
     """The colour of a cell, as ``#RRGGBB``: that of its architecture."""
-    return COLOURS.get(cell.split("/")[1], "#000000")
+    return COLOURS.get(CellId.parse(cell).architecture, "#000000")
 
 
 def rgb(cell: str) -> tuple[int, int, int]:

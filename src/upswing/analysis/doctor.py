@@ -28,7 +28,8 @@ from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim, canonical_claims, load_claims
 from upswing.study.errors import BadInput
 from upswing.study.fingerprint import COMPUTING_PACKAGES
-from upswing.study.matrix import RUN_FILES, Matrix
+from upswing.study.ids import RUN_FILES, file_of
+from upswing.study.matrix import Matrix
 from upswing.study.spec import Spec
 
 CLAIMS = Path("config/claims.yaml")
@@ -99,7 +100,7 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
 
 def orphans(results: Path, matrix: Matrix) -> list[Path]:
     """The files of runs that are not, or no longer, in the study; and what an accident left behind."""
-    expected = {results / "runs" / f"{run}.{kind}" for run in matrix.runs for kind in RUN_FILES}
+    expected = {results / file_of(run, kind) for run in matrix.runs for kind in RUN_FILES}
     there = (path for path in (results / "runs").rglob("*") if path.is_file())
     return sorted(path for path in there if path not in expected)
 
@@ -109,7 +110,7 @@ def _of_run(
 ) -> Iterator[Finding | dict[str, Any]]:
     """What is wrong with a run's files; and the metadata of its windows, if they can be read."""
     run = spec.run(seed)
-    paths = {kind: results / "runs" / f"{run}.{kind}" for kind in RUN_FILES}
+    paths = {kind: results / file_of(run, kind) for kind in RUN_FILES}
     windows = paths["windows.parquet"]
     there = [path for path in paths.values() if path.is_file()]
     yield from (Finding(path, "missing", AGAIN) for path in paths.values() if path not in there)

@@ -37,6 +37,7 @@ from upswing.runs.files.tables import (
 from upswing.runs.results import Results
 from upswing.study.claims import Claim, canonical_claims
 from upswing.study.errors import BadInput
+from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 
 ALIKE = 1e-9
@@ -50,7 +51,7 @@ class Recounted(Results):
 
     def __init__(self, folder: Path, runs: pd.DataFrame) -> None:
         super().__init__(folder)
-        cells = runs["run"].str.rsplit("/", n=1).str[0]
+        cells = runs["run"].map(cell_of)
         self.__dict__.update(runs=runs.assign(cell=cells))
 
 

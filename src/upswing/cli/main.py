@@ -1,4 +1,4 @@
-"""The verbs: each calls one typed function, so that every job can be repeated by hand."""
+"""The subcommands: each calls one typed function, so that every job can be repeated by hand."""
 
 import argparse
 import json
@@ -14,7 +14,7 @@ from upswing.study.errors import BadInput
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a verb; 0 if it went well, 2 for bad input, 1 if something else failed or has changed."""
+    """Run a subcommand; 0 if it went well, 2 for bad input, 1 for another failure or a change."""
     for stream in (sys.stdout, sys.stderr):  # α and φ stand in what is said, whatever the locale
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(encoding="utf-8")
@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         given = sys.argv[1:] if arguments is None else arguments
         print("to repeat it:", shlex.join(["upswing", *given]), flush=True)
     try:
-        code: int | None = options.verb(options)
+        code: int | None = options.call(options)
     except BadInput as error:
         print(f"upswing: {error}", file=sys.stderr)
         return 2
@@ -56,11 +56,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"upswing {__version__}")
     parser.set_defaults(repeatable=False)
-    verbs = parser.add_subparsers(required=True, metavar="VERB")
+    subcommands = parser.add_subparsers(required=True, metavar="SUBCOMMAND")
 
-    def verb(name: str, function: object, summary: str) -> argparse.ArgumentParser:
-        added = verbs.add_parser(name, help=summary, description=summary)
-        added.set_defaults(verb=function)
+    def add(name: str, function: object, summary: str) -> argparse.ArgumentParser:
+        added = subcommands.add_parser(name, help=summary, description=summary)
+        added.set_defaults(call=function)
         return added
 
     results = argparse.ArgumentParser(add_help=False)
@@ -68,25 +68,25 @@ def _parser() -> argparse.ArgumentParser:
         "results", nargs="?", type=Path, default=Path("results"), help="folder (default: results)"
     )
 
-    added = verb("train", _train, "Learn the runs of specifications and store them.")
+    added = add("train", _train, "Learn the runs of specifications and store them.")
     added.add_argument("spec", nargs="+", help="a specification in JSON, as a run's log shows it")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
 
-    added = verbs.add_parser(
+    added = subcommands.add_parser(
         "verdicts", help="Judge every claim and print the verdicts.", parents=[results],
         description="Judge every claim by the runs, write tables/verdicts.parquet and print it.",
     )  # fmt: skip
     added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
-    added.set_defaults(verb=_verdicts, repeatable=True)
+    added.set_defaults(call=_verdicts, repeatable=True)
 
     summary = "Compare two folders of results: verdicts, estimates and runs that differ."
-    added = verbs.add_parser("compare", help=summary, description=summary)
+    added = subcommands.add_parser("compare", help=summary, description=summary)
     added.add_argument("a", type=Path)
     added.add_argument("b", type=Path)
-    added.set_defaults(verb=_compare)
+    added.set_defaults(call=_compare)
 
     summary = "Browse the recordings of all runs, or of some."
-    added = verbs.add_parser(
+    added = subcommands.add_parser(
         "browse", help=summary, description=summary,
         epilog="A FILTER is task=, architecture=, alpha=, seed= (0,3 or 0..4), claim=C13, or the id "
         "of a run, a cell or a task; several must all be fulfilled.",
@@ -101,30 +101,34 @@ def _parser() -> argparse.ArgumentParser:
         "--report-port", type=int, default=9873,
         help="of the report (default: 9873, or a free one if that is in use)",
     )  # fmt: skip
-    added.set_defaults(verb=_browse)
+    added.set_defaults(call=_browse)
 
     summary = "Take the README's pictures of the recordings, in a viewer without a screen."
-    added = verbs.add_parser("screenshots", help=summary, description=summary, parents=[results])
+    added = subcommands.add_parser(
+        "screenshots", help=summary, description=summary, parents=[results]
+    )
     added.add_argument("--into", type=Path, default=Path("report/pictures"))
     added.add_argument("--run", default="full-control/table/alpha-0.01/seed-4")
     added.add_argument("--task", default="full-control")
-    added.set_defaults(verb=_screenshots)
+    added.set_defaults(call=_screenshots)
 
     summary = "Check that a folder of results is whole; says what to delete where it is not."
-    added = verbs.add_parser("doctor", help=summary, description=summary, parents=[results])
-    added.set_defaults(verb=_doctor)
+    added = subcommands.add_parser("doctor", help=summary, description=summary, parents=[results])
+    added.set_defaults(call=_doctor)
 
     summary = "Delete the files of runs that are not, or no longer, in the study."
-    added = verbs.add_parser("clean-orphans", help=summary, description=summary, parents=[results])
-    added.set_defaults(verb=_clean_orphans)
+    added = subcommands.add_parser(
+        "clean-orphans", help=summary, description=summary, parents=[results]
+    )
+    added.set_defaults(call=_clean_orphans)
 
     summary = "Renew what the README shows of the results."
-    added = verbs.add_parser("readme", help=summary, description=summary, parents=[results])
+    added = subcommands.add_parser("readme", help=summary, description=summary, parents=[results])
     added.add_argument("--templates", type=Path, default=Path("report"))
     added.add_argument("--readme", type=Path, default=Path("README.md"))
-    added.set_defaults(verb=_readme)
+    added.set_defaults(call=_readme)
 
-    verbs_of_results = (
+    of_results = (
         ("tables", _tables, "Write tables/runs.parquet and tables/cells.parquet."),
         ("comparisons", _comparisons, "Write the recordings that compare runs."),
         (
@@ -140,53 +144,53 @@ def _parser() -> argparse.ArgumentParser:
         ),
         ("changes", _changes, "Write tables/changes.parquet: what each change to the thesis buys."),
     )
-    for name, function, summary in verbs_of_results:
-        added = verbs.add_parser(name, help=summary, description=summary, parents=[results])
-        added.set_defaults(verb=function, repeatable=True)
+    for name, function, summary in of_results:
+        added = subcommands.add_parser(name, help=summary, description=summary, parents=[results])
+        added.set_defaults(call=function, repeatable=True)
         if name in ("viewer", "report"):
             added.add_argument(
                 "--templates", type=Path, default=Path("report"), help="folder of the templates"
             )
 
     summary = "Draw a figure from the results, as SVG and PNG."
-    added = verbs.add_parser("figure", help=summary, description=summary)
+    added = subcommands.add_parser("figure", help=summary, description=summary)
     added.add_argument("figure", help="5 to 11, as in the thesis, or the name of one of ours")
     added.add_argument("results", nargs="?", type=Path, default=Path("results"))
-    added.set_defaults(verb=_figure, repeatable=True)
+    added.set_defaults(call=_figure, repeatable=True)
 
     summary = "Run cells of the study under a group of other readings and keep the measures."
-    added = verbs.add_parser("sweep", help=summary, description=summary)
+    added = subcommands.add_parser("sweep", help=summary, description=summary)
     added.add_argument("sweep", help="its name in the file of sweeps")
     added.add_argument("group", help="the name of the group of readings")
     added.add_argument("results", nargs="?", type=Path, default=Path("results"))
     added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
-    added.set_defaults(verb=_sweep, repeatable=True)
+    added.set_defaults(call=_sweep, repeatable=True)
 
     summary = (
         "Judge every claim under every reading of the sweeps, and choose the networks' default."
     )
-    added = verbs.add_parser("readings", help=summary, description=summary, parents=[results])
+    added = subcommands.add_parser("readings", help=summary, description=summary, parents=[results])
     added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
     added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
-    added.set_defaults(verb=_readings, repeatable=True)
+    added.set_defaults(call=_readings, repeatable=True)
 
-    added = verb("study", _study, "Keep a study's configuration beside its results.")
+    added = add("study", _study, "Keep a study's configuration beside its results.")
     added.set_defaults(repeatable=True)
     added.add_argument("study", help="the study in JSON")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
 
-    added = verb("shortest", _shortest, "Search for what succeeds every time, and how soon.")
+    added = add("shortest", _shortest, "Search for what succeeds every time, and how soon.")
     added.set_defaults(repeatable=True)
     added.add_argument("study", help="the study in JSON")
     added.add_argument("--results", type=Path, default=Path("results"), help="folder to write to")
 
-    added = verb("check", _check, "Check a configuration and say what it comes to.")
+    added = add("check", _check, "Check a configuration and say what it comes to.")
     added.add_argument("config", nargs="?", type=Path, default=Path("config/config.yaml"))
     added.add_argument("--claims", type=Path, default=Path("config/claims.yaml"))
     added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
 
-    verb("schema", _schema, "Print the JSON schema of a configuration.")
-    verb("keys", _keys, "Print what every key of a configuration means, in Markdown.")
+    add("schema", _schema, "Print the JSON schema of a configuration.")
+    add("keys", _keys, "Print what every key of a configuration means, in Markdown.")
     return parser
 
 

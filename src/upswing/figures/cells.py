@@ -1,4 +1,4 @@
-"""What the figures that sum up know of a cell: its label, and how many of its runs succeed."""
+"""What the figures that sum up know of a cell: how many of its runs succeed."""
 
 from typing import NamedTuple
 
@@ -23,10 +23,3 @@ def share(results: Results, cell: str) -> Share:
     successes, of = int(fulfilled.sum()), len(fulfilled)
     estimate = statistics.share(successes, of)
     return Share(100 * estimate.value, 100 * estimate.low, 100 * estimate.high, successes, of)
-
-
-def label(cell: str) -> str:
-    """A cell without its task: ``table, α = 0.75``."""
-    _, architecture, alpha = cell.split("/")
-    alpha = alpha.removeprefix("alpha-")
-    return architecture if alpha == "none" else f"{architecture}, α = {alpha}"

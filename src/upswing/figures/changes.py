@@ -21,9 +21,9 @@ def draw(results: "Results") -> "Drawing":
     import numpy as np
 
     from upswing.figures import panels
-    from upswing.figures.cells import label
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.files.table import read_table
+    from upswing.study.ids import CellId
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
     table = changes[changes["kind"] != "balancing"]
@@ -56,7 +56,7 @@ def draw(results: "Results") -> "Drawing":
                 if cell["task"] == "full-control"
                 else f"{cell['task'].removeprefix('full-control-')}: "
             )
-            labels.append(task + label(cell["cell"]))
+            labels.append(task + CellId.parse(cell["cell"]).label)
             places.append(row)
             row += 1
         row += 0.3

@@ -19,8 +19,9 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.cells import label, share
+    from upswing.figures.cells import share
     from upswing.figures.style import grid_of_panels
+    from upswing.study.ids import CellId
 
     figure, axes = grid_of_panels(2, (3, 2), height=2.4)
     for number, kind in enumerate(("balancing", "full-control")):
@@ -31,7 +32,7 @@ def draw(results: "Results") -> "Drawing":
         # Of each architecture the step size with most successes, and with α = 1 if that is another.
         chosen: dict[str, str] = {}
         for cell in cells:
-            architecture = cell.split("/")[1]
+            architecture = CellId.parse(cell).architecture
             best = chosen.get(architecture)
             if best is None or share(results, cell).successes > share(results, best).successes:
                 chosen[architecture] = cell
@@ -57,7 +58,11 @@ def draw(results: "Results") -> "Drawing":
                 shade = colour(cell)
                 panel.plot(last, middle, color=shade, linewidth=1.4)
                 panel.fill_between(last, low, high, color=shade, alpha=0.12, linewidth=0)
-                words = label(cell) if name == "best α" else cell.split("/")[1]
+                words = (
+                    CellId.parse(cell).label
+                    if name == "best α"
+                    else CellId.parse(cell).architecture
+                )
                 ends.append((float(middle[-1]), words, shade))
             panel.set_title(f"{kind}, {name}")
             panel.set_ylabel("falls per 1,000 steps" if kind == "balancing" else "upright [%]")

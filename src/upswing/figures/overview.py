@@ -21,13 +21,14 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.cells import label, share
+    from upswing.figures.cells import share
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.success import SUCCESS
+    from upswing.study.ids import CellId
 
     tasks: dict[str, list[str]] = {}
     for cell in results.cells:
-        tasks.setdefault(cell.split("/")[0], []).append(cell)
+        tasks.setdefault(CellId.parse(cell).task, []).append(cell)
     heights = [len(cells) + 2.5 for cells in tasks.values()]
     figure, grid = subplots(
         len(tasks), 2, figsize=(WIDTH, ROW * sum(heights) + 0.4), height_ratios=heights,
@@ -49,7 +50,7 @@ def draw(results: "Results") -> "Drawing":
                 f"{found.successes} of {found.of}", (1.02, row), xycoords=("axes fraction", "data"),
                 va="center", color=shade,
             )  # fmt: skip
-        left.set_yticks(range(len(cells)), [label(cell) for cell in cells])
+        left.set_yticks(range(len(cells)), [CellId.parse(cell).label for cell in cells])
         left.set_ylim(len(cells) - 0.4, -0.6)
         left.set_title(f"{task}: every run")
         right.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))

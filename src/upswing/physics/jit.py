@@ -18,7 +18,7 @@ from numba.extending import overload
 from platformdirs import user_cache_path
 
 from upswing.study.fingerprint import fingerprint
-from upswing.study.loading import module_of, parts
+from upswing.study.loading import compiled_modules
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -33,22 +33,6 @@ arrays: it changes those it is given, which its Python caller holds."""
 
 INLINED: Any = {**OPTIONS, "forceinline": True}
 """Calls cost most of a step otherwise: a learner is a hundred words, handed over by copying."""
-
-
-COMPILED = ("codings", "learners", "methods", "tasks")
-OPTIMAL = Path(__file__).parents[1] / "optimal"
-
-
-def compiled_modules() -> list[str]:
-    """Where compiled code starts from: the loop, the measures, and every part the loop can be given."""
-    named = [module_of(kind, name) for kind in COMPILED for name in parts(kind)]
-    optimal = sorted(OPTIMAL.glob("[a-z]*.py"))
-    return [
-        "upswing.runs.loop",
-        "upswing.runs.metrics",
-        *named,
-        *(f"upswing.optimal.{path.stem}" for path in optimal),
-    ]
 
 
 def _choose_cache_directory() -> None:

@@ -18,6 +18,7 @@ from upswing.runs.recording.frames import DRAWN_EVERY, FRAME, STEP, rounded
 from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
 from upswing.runs.results import Crowd, Results
 from upswing.runs.simulation import body_of
+from upswing.study.ids import CellId, cell_of, run_of, seed_of
 
 POINTS = 100
 """A run's line has at most so many points."""
@@ -72,7 +73,7 @@ def write_task(path: Path, results: Results, task: str) -> None:
         ),
         *(
             rrb.TimeSeriesView(
-                name=_short(cell),
+                name=CellId.parse(cell).label,
                 origin=f"/cells/{_entity(cell)}",
                 axis_x=whole_run(),
                 plot_legend=rrb.PlotLegend(visible=False),
@@ -95,7 +96,7 @@ def write_task(path: Path, results: Results, task: str) -> None:
             last_step, values = _in_points(crowd)
             middle = np.median(values, axis=0)
             quartiles = np.quantile(values, (0.25, 0.75), axis=0)
-            place, name, shade = _entity(cell), _short(cell), rgb(cell)
+            place, name, shade = _entity(cell), CellId.parse(cell).label, rgb(cell)
             for entity, lines, labels, width in (
                 (f"cells/{place}/runs", values, [f"seed {seed}" for seed in crowd.seeds], THIN),
                 (f"cells/{place}/quartiles", quartiles, ["25 %", "75 %"], MIDDLING),
@@ -110,16 +111,14 @@ def write_task(path: Path, results: Results, task: str) -> None:
 def write_claim(path: Path, results: Results, claim: str) -> None:
     """The worst, the median and the best run of a claim's cell: how they began and ended."""
     verdicts = read_verdicts(results.folder).set_index("claim")
-    runs = [
-        str(p).removeprefix("runs/").removesuffix(".rrd") for p in verdicts["recordings"].loc[claim]
-    ]
-    cell = runs[0].rsplit("/", 1)[0]
+    runs = [run_of(str(path)) for path in verdicts["recordings"].loc[claim]]
+    cell = cell_of(runs[0])
     body = body_of(results.cells[cell])
     limit = 99.0 if results.kind(cell) == "balancing" else 198.0
     columns = [
         rrb.Vertical(
             rrb.Spatial2DView(
-                name=f"{rank}: seed {run.rsplit('-', 1)[1]}",
+                name=f"{rank}: seed {seed_of(run)}",
                 origin=f"/{rank}/pendulum",
                 visual_bounds=rrb.VisualBounds2D(
                     x_range=(-PENDULUM_SIZE, PENDULUM_SIZE), y_range=(-PENDULUM_SIZE, PENDULUM_SIZE)
@@ -235,10 +234,6 @@ def _send(
 
 
 def _entity(cell: str) -> str:
-    return cell.split("/", 1)[1]
-
-
-def _short(cell: str) -> str:
-    """A cell without its task: ``table, α = 0.75``."""
-    architecture, alpha = _entity(cell).split("/alpha-")
-    return architecture if alpha == "none" else f"{architecture}, α = {alpha}"
+    """A cell's place in the recording of its task."""
+    _, architecture, alpha = CellId.parse(cell)
+    return f"{architecture}/alpha-{alpha}"

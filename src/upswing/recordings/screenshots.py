@@ -17,6 +17,7 @@ from upswing.recordings.processes import running
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.layout import run_layout
 from upswing.runs.results import Results
+from upswing.study.ids import cell_of, recording_of
 
 if TYPE_CHECKING:
     from rerun.experimental import ViewerClient
@@ -38,7 +39,7 @@ def take_screenshots(results: Results, folder: Path, run: str, task: str) -> Non
         run: the id of the run that is shown.
         task: the task whose runs are compared.
     """
-    cell = results.cells[run.rsplit("/", 1)[0]]
+    cell = results.cells[cell_of(run)]
     with (
         TemporaryDirectory() as temporary,
         # A catalog waits for its viewers to go: the viewer ends first.
@@ -48,7 +49,7 @@ def take_screenshots(results: Results, folder: Path, run: str, task: str) -> Non
         layout = Path(temporary) / "layout.rbl"
         run_layout(cell.task.kind).save(f"upswing-{cell.task.name}", layout)
         viewer.open(str(layout), navigate=False)
-        viewer.open(str(results.folder / "runs" / f"{run}.rrd"))
+        viewer.open(str(results.folder / recording_of(run)))
         _picture(viewer, folder / "run.png", "frame", 1_100)
         viewer.open(str(results.folder / "recordings" / f"task-{task}.rrd"))
         _picture(viewer, folder / "comparison.png", "step", cell.task.steps // 2)

@@ -7,6 +7,7 @@ import pandas as pd
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.results import Results
 from upswing.study.errors import BadInput, near
+from upswing.study.ids import run_of
 from upswing.study.names import alpha_text
 
 KEYS = ("task", "architecture", "alpha", "seed", "claim")
@@ -37,11 +38,14 @@ def select(results: Results, words: Sequence[str]) -> pd.DataFrame:
 
 def _by_id(runs: pd.DataFrame, word: str) -> pd.DataFrame:
     """The run of an id or of a recording's path, or the runs of a cell or task."""
-    run = word.removesuffix(".rrd").rsplit("runs/", 1)[-1].strip("/")
-    chosen = runs[(runs["run"] == run) | runs["run"].str.startswith(f"{run}/")]
-    if chosen.empty:
-        raise BadInput([f"filter: {word}: no such run; {near(run, runs['run'])[:200]}"])
-    return chosen
+    parts = word.removesuffix(".rrd").strip("/").split("/")
+    # A path is an id behind ``runs/``; but a task may be called so too.
+    for first in (0, *(place + 1 for place, part in enumerate(parts) if part == "runs")):
+        asked = "/".join(parts[first:])
+        chosen = runs[(runs["run"] == asked) | runs["run"].str.startswith(f"{asked}/")]
+        if not chosen.empty:
+            return chosen
+    raise BadInput([f"filter: {word}: no such run; {near(run_of(word), runs['run'])[:200]}"])
 
 
 def _by_value(runs: pd.DataFrame, key: str, value: str) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.recording.layout import run_layout
 from upswing.runs.results import Results
-from upswing.study.ids import recording_id
+from upswing.study.ids import cell_of, recording_id, recording_of, run_of
 
 RECORDINGS, LAYOUTS = "recordings", "layouts"
 """The folders of the scripts, beside the page that loads them."""
@@ -22,11 +22,7 @@ RECORDINGS, LAYOUTS = "recordings", "layouts"
 def chosen_runs(results: Results) -> list[str]:
     """The runs that the report shows: those of its figures, and each claim's worst, median and best."""
     verdicts = read_verdicts(results.folder)
-    of_claims = [
-        str(path).removeprefix("runs/").removesuffix(".rrd")
-        for paths in verdicts["recordings"]
-        for path in paths
-    ]
+    of_claims = [run_of(str(path)) for paths in verdicts["recordings"] for path in paths]
     words = [
         json.loads(path.read_text("utf-8"))
         for path in sorted((results.folder / "figures").glob("*.json"))
@@ -42,10 +38,10 @@ def script_of_run(results: Results, run: str) -> str:
     Raises:
         FileNotFoundError: the run has no recording.
     """
-    recording = results.folder / "runs" / f"{run}.rrd"
+    recording = results.folder / recording_of(run)
     if not recording.is_file():
         raise FileNotFoundError(f"{recording}: missing; run the study again")
-    task = results.cells[run.rsplit("/", 1)[0]].task.name
+    task = results.cells[cell_of(run)].task.name
     return script_of(recording_id(run), recording.read_bytes(), task)
 
 

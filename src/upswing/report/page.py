@@ -44,6 +44,7 @@ from upswing.runs.study_file import read_study
 from upswing.study.claims import WEAKEST_FIRST
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
+from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 from upswing.study.readings import Readings
 from upswing.study.yaml_file import read_yaml
@@ -182,7 +183,7 @@ def _counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:
 def _greedy(runs: list[Row]) -> dict[str, float]:
     """Of each cell, the mean share of starts from which what was learned succeeds without exploring."""
     frame = pd.DataFrame(runs)
-    cells = frame["run"].str.rsplit("/", n=1).str[0]
+    cells = frame["run"].map(cell_of)
     return {
         str(k): float(v) for k, v in frame.groupby(cells)["greedy_success_share"].mean().items()
     }

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from upswing.study.claims import words_of
-from upswing.study.ids import recording_id
+from upswing.study.ids import recording_id, run_of
 from upswing.study.names import alpha_text
 
 UNKNOWN = "–"
@@ -48,7 +48,7 @@ def verdict(row: dict[str, Any]) -> str:
 
 def recording(run: str) -> str:
     """The name of a run's recording, from its id or its path."""
-    return recording_id(run.removeprefix("runs/").removesuffix(".rrd"))
+    return recording_id(run_of(run))
 
 
 FILTERS = {

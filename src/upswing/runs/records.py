@@ -12,7 +12,8 @@ from typing import Any
 
 from upswing.runs.files.ledger import ledger_of_run, ledger_path, read_ledger
 from upswing.study.errors import BadInput
-from upswing.study.matrix import RUN_FILES, Matrix
+from upswing.study.ids import RUN_FILES, file_of
+from upswing.study.matrix import Matrix
 from upswing.study.spec import Spec
 
 UNKNOWN = "unknown"
@@ -52,7 +53,7 @@ def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iter
     asked, single = job.canonical(), job.of_seed(0).canonical()
     for seed in job.seeds:
         run = job.run(seed)
-        paths = [f"{results}/runs/{run}.{kind}" for kind in RUN_FILES]
+        paths = [f"{results}/{file_of(run, kind)}" for kind in RUN_FILES]
         there = [path for path in paths if Path(path).exists()]
         made = _made_from(Path(results), run) if there else None
         if made is not None and made[0] == single.replace('"seeds":[0]', f'"seeds":[{seed}]'):
@@ -75,7 +76,7 @@ def _made_from(results: Path, run: str) -> tuple[str, str] | None:
         return made["spec"], made["code"]
     except (BadInput, KeyError):
         pass
-    windows = results / "runs" / f"{run}.windows.parquet"
+    windows = results / file_of(run, "windows.parquet")
     if not windows.is_file():
         return None
     from upswing.runs.files.trajectory import read_metadata

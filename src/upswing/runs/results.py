@@ -15,6 +15,7 @@ from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
 from upswing.runs.study_file import read_study
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
+from upswing.study.ids import cell_of, file_of
 from upswing.study.matrix import Matrix
 from upswing.study.spec import Spec
 
@@ -73,7 +74,7 @@ class Results:
         """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
         path, cells = self.folder / RUNS, self.cells
         frame = read_runs(self.folder, set(Matrix(self.study).runs))
-        frame["cell"] = frame["run"].str.rsplit("/", n=1).str[0]
+        frame["cell"] = frame["run"].map(cell_of)
         there = frame.groupby("cell")["seed"].agg(set).to_dict()
         if incomplete := [
             f"{path}: {cell}: {len(lost)} of {len(spec.seeds)} runs are missing; "
@@ -164,6 +165,6 @@ class Results:
         )
 
     def _read(self, run: str, kind: str) -> pd.DataFrame:
-        path = self.folder / "runs" / f"{run}.{kind}.parquet"
+        path = self.folder / file_of(run, f"{kind}.parquet")
         columns = OF_A_TRAJECTORY if kind == "trajectory" else OF_WINDOWS
         return read_table(path, columns, "run the study again to make it")

@@ -24,7 +24,7 @@ from upswing.runs.recording.write import write_recording
 from upswing.runs.simulation import Setting, prepare
 from upswing.runs.snapshots import Snapshots, look, moments, snapshots
 from upswing.study import jobs
-from upswing.study.matrix import RUN_FILES
+from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.measured import Measures
 from upswing.study.spec import Spec
 
@@ -53,15 +53,15 @@ def train(spec: Spec, results: Path) -> None:
     for seed in spec.seeds:
         one = spec.of_seed(seed)
         print(f"{one.run(seed)}\n  to repeat it: {one.command(str(results))}", flush=True)
-        place = results / "runs" / one.run(seed)
-        if take_back(results, one.run(seed), _identity(one), place.parent):
+        files = _files(one, results)
+        if take_back(results, one.run(seed), _identity(one), files["rrd"].parent):
             print("  was finished before, when another run of its job failed", flush=True)
             _seal(one, results)
             finished.append(one)
             continue
         try:
             run = learn(one, seed, trajectory)
-            with _all_or_none(place, ledger_path(results, ledger_of_run(one.run(seed)))):
+            with _all_or_none(*files.values(), ledger_path(results, ledger_of_run(one.run(seed)))):
                 measures = _store(one, seed, run, results)
                 _seal(one, results)
         except Exception as error:  # noqa: BLE001  whatever it is, the other runs go on
@@ -73,21 +73,24 @@ def train(spec: Spec, results: Path) -> None:
             print(f"  {run.seconds:.3f} s, {rate:,.0f} steps/s, {measures}", flush=True)
     if failed:
         for one in finished:
-            place = results / "runs" / one.run(one.seeds[0])
-            files = sorted(place.parent.glob(f"{place.name}.*"))
-            keep(results, one.run(one.seeds[0]), _identity(one), files)
+            whole = list(_files(one, results).values())
+            keep(results, one.run(one.seeds[0]), _identity(one), whole)
         raise RunsFailed("\n".join(failed))
 
 
+def _files(one: Spec, results: Path) -> dict[str, Path]:
+    """The files of a single run, by their endings."""
+    return {kind: results / file_of(one.run(one.seeds[0]), kind) for kind in RUN_FILES}
+
+
 @contextmanager
-def _all_or_none(place: Path, ledger: Path) -> Iterator[None]:
+def _all_or_none(*files: Path) -> Iterator[None]:
     """The files of a run belong together: if one cannot be written, all of them go, old or new."""
     try:
         yield
     except BaseException:
-        for path in (*place.parent.glob(f"{place.name}.*"), ledger):
-            if path.is_file():
-                path.unlink()
+        for path in files:
+            path.unlink(missing_ok=True)
         raise
 
 
@@ -98,10 +101,9 @@ def _identity(one: Spec) -> str:
 
 def _seal(one: Spec, results: Path) -> None:
     """Keep the checksums of a run's files, and what they are of, where neither can change the other."""
-    run = one.run(one.seeds[0])
-    files = [results / "runs" / f"{run}.{kind}" for kind in RUN_FILES]
+    name, files = ledger_of_run(one.run(one.seeds[0])), _files(one, results).values()
     code = jobs.training(one.architecture, one.task.kind).fingerprint
-    seal(results, ledger_of_run(run), files, spec=one.canonical(), code=code)
+    seal(results, name, files, spec=one.canonical(), code=code)
 
 
 def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
@@ -123,7 +125,7 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     """Write the four files of a run; returns its measures."""
     measures, windows, kept, row = outcome_of(spec, seed, run.setting, run.trajectory)
     learned = {name: values.copy() for name, values in run.setting.learner.learned.items()}
-    place = results / "runs" / spec.run(seed)
+    files = _files(spec, results)
     content: dict[str, Any] = {
         "spec": spec.canonical(),
         "run": spec.run(seed),
@@ -135,13 +137,13 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
         "steps_per_second": measures.steps / run.seconds,
     }
     write_trajectory(
-        place.with_name(f"{place.name}.trajectory.parquet"),
+        files["trajectory.parquet"],
         run.trajectory,
         kept,
         metadata(**content),
     )
     write_recording(
-        place.with_name(f"{place.name}.rrd"),
+        files["rrd"],
         spec.run(seed),
         run.trajectory,
         windows,
@@ -150,15 +152,14 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
         run.setting.body,
         _properties(spec, seed, outcome),
     )
-    with written(place.with_name(f"{place.name}.weights.safetensors")) as beside:
+    with written(files["weights.safetensors"]) as beside:
         beside.write_bytes(save(learned, metadata={"spec": spec.canonical()}))
     # The windows come last: with them a run is complete, and they know the other files.
     content["checksums"] = {
-        kind: checksum(place.with_name(f"{place.name}.{kind}"))
-        for kind in ("trajectory.parquet", "rrd", "weights.safetensors")
+        kind: checksum(files[kind]) for kind in ("trajectory.parquet", "rrd", "weights.safetensors")
     }
     write_windows(
-        place.with_name(f"{place.name}.windows.parquet"),
+        files["windows.parquet"],
         windows,
         metadata(**content, outcome=outcome),
     )

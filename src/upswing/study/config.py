@@ -54,11 +54,11 @@ def _counted(value: Any) -> Any:
     return listed(value)
 
 
-def _part(room: str) -> AfterValidator:
+def _part(kind: str) -> AfterValidator:
     """A part by the name of its file, which is found without importing it."""
 
     def known(name: str) -> str:
-        if name not in (there := parts(room)):
+        if name not in (there := parts(kind)):
             *others, last = [repr(one) for one in there]
             hint = get_close_matches(name, there, n=1)
             suggestion = f"; did you mean {hint[0]!r}?" if hint else ""
@@ -68,8 +68,8 @@ def _part(room: str) -> AfterValidator:
     return AfterValidator(known)
 
 
-def _choice(room: str) -> WithJsonSchema:
-    return WithJsonSchema({"type": "string", "enum": parts(room)})
+def _choice(kind: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": "string", "enum": parts(kind)})
 
 
 Kind = Annotated[str, _part("tasks"), _choice("tasks")]

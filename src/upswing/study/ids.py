@@ -1,4 +1,73 @@
-"""The ids of runs and what is derived from them."""
+"""The ids of cells and runs, and the paths of a run's files: nowhere else is one built or taken apart.
+
+A cell is ``{task}/{architecture}/alpha-{alpha}``, a run ``{cell}/seed-{seed}``; below ``runs`` these are
+also its paths.
+"""
+
+from typing import NamedTuple
+
+from upswing.study.names import NO_ALPHA, alpha_text
+
+RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
+"""The endings of a run's files."""
+
+
+class CellId(NamedTuple):
+    """A cell's id in its parts."""
+
+    task: str
+    architecture: str
+    alpha: str  # as it is written in the id; ``none`` for a control
+
+    @classmethod
+    def parse(cls, cell: str) -> "CellId":
+        """The parts of the id of a cell."""
+        task, architecture, alpha = cell.split("/")
+        return cls(task, architecture, alpha.removeprefix("alpha-"))
+
+    @property
+    def label(self) -> str:
+        """The cell without its task, for readers: ``table, α = 0.75``."""
+        return (
+            self.architecture
+            if self.alpha == NO_ALPHA
+            else f"{self.architecture}, α = {self.alpha}"
+        )
+
+
+def cell_id(task: str, architecture: str, alpha: float | None) -> str:
+    """The id of a cell."""
+    return f"{task}/{architecture}/alpha-{alpha_text(alpha)}"
+
+
+def run_id(cell: str, seed: int) -> str:
+    """The id of a run."""
+    return f"{cell}/seed-{seed}"
+
+
+def cell_of(run: str) -> str:
+    """The id of a run's cell."""
+    return run.rpartition("/")[0]
+
+
+def seed_of(run: str) -> int:
+    """A run's seed."""
+    return int(run.rpartition("/seed-")[2])
+
+
+def file_of(run: str, kind: str) -> str:
+    """The path of a run's file below the folder of results; ``kind`` is one of ``RUN_FILES``."""
+    return f"runs/{run}.{kind}"
+
+
+def recording_of(run: str) -> str:
+    """The path of a run's recording below the folder of results."""
+    return file_of(run, "rrd")
+
+
+def run_of(recording: str) -> str:
+    """The run of a recording's path; of an id, the id itself."""
+    return "/".join(recording.removesuffix(".rrd").split("/")[-4:])
 
 
 def recording_id(run: str) -> str:

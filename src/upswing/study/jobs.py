@@ -40,7 +40,7 @@ def _fingerprint(code: Code) -> str:
     return fingerprint(*code.entries, packages=code.packages)
 
 
-def parts(architecture: Architecture, kind: str) -> tuple[str, ...]:
+def loaded_by_name(architecture: Architecture, kind: str) -> tuple[str, ...]:
     """The modules that are loaded by name when an architecture learns a kind of task."""
     named = [
         ("tasks", kind),
@@ -50,11 +50,11 @@ def parts(architecture: Architecture, kind: str) -> tuple[str, ...]:
     ]
     if inner := inner_learner(architecture.learner, architecture.hidden):
         named.append(("learners", inner))
-    return tuple(module_of(folder, name) for folder, name in named)
+    return tuple(module_of(part, name) for part, name in named)
 
 
 def _learning(*entries: str, used: Iterable[tuple[Architecture, str]]) -> Code:
-    loaded = {part for architecture, kind in used for part in parts(architecture, kind)}
+    loaded = {part for architecture, kind in used for part in loaded_by_name(architecture, kind)}
     return Code((*entries, *sorted(loaded)), COMPUTING_PACKAGES)
 
 

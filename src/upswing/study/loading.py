@@ -16,25 +16,31 @@ PACKAGES = {
 }
 """Where the parts of each kind lie."""
 
+COMPILED = ("codings", "learners", "methods", "tasks")
+"""The kinds whose parts hold compiled code."""
+
+SOURCE = Path(__file__).parents[2]
+"""The folder of this package."""
+
 BESIDE = ("episodes",)
-"""Files beside the parts that are none."""
+"""Modules in these packages that are no part themselves."""
 
 
-def module_of(folder: str, name: str) -> str:
+def module_of(kind: str, name: str) -> str:
     """The module of a part by its kind and its name in the configuration."""
-    return f"{PACKAGES[folder]}.{name.replace('-', '_')}"
+    return f"{PACKAGES[kind]}.{name.replace('-', '_')}"
 
 
-def parts(folder: str) -> list[str]:
+def parts(kind: str) -> list[str]:
     """The names of the parts of a kind: what there is to choose from."""
-    place = Path(__file__).parents[2].joinpath(*PACKAGES[folder].split("."))
+    place = SOURCE.joinpath(*PACKAGES[kind].split("."))
     names = (path.stem for path in place.glob("[a-z]*.py"))
     return sorted(name.replace("_", "-") for name in names if name not in BESIDE)
 
 
-def load(folder: str, name: str) -> Any:
+def load(kind: str, name: str) -> Any:
     """The module itself."""
-    return import_module(module_of(folder, name))
+    return import_module(module_of(kind, name))
 
 
 def inner_learner(learner: str, hidden: tuple[int, ...]) -> str | None:
@@ -42,3 +48,15 @@ def inner_learner(learner: str, hidden: tuple[int, ...]) -> str | None:
     if learner != "gated":
         return None
     return "networks" if hidden else "table"
+
+
+def compiled_modules() -> list[str]:
+    """Where compiled code starts from: the loop, the measures, dynamic programming, and every part."""
+    named = [module_of(kind, name) for kind in COMPILED for name in parts(kind)]
+    optimal = sorted((SOURCE / "upswing/optimal").glob("[a-z]*.py"))
+    return [
+        "upswing.runs.loop",
+        "upswing.runs.metrics",
+        *named,
+        *(f"upswing.optimal.{path.stem}" for path in optimal),
+    ]

@@ -7,10 +7,8 @@ from itertools import groupby, product
 from pathlib import Path
 
 from upswing.study.config import Experiment, Study
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec, cell_id
-
-RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
-"""The endings of a run's files."""
+from upswing.study.ids import RUN_FILES, cell_id, file_of
+from upswing.study.spec import NamedArchitecture, NamedTask, Spec
 
 
 @dataclass(frozen=True)
@@ -70,12 +68,14 @@ class Matrix:
         of the runs.
         """
         for spec in self.cells.values():
-            folder = results / "runs" / spec.cell
+            folder = (results / file_of(spec.run(spec.seeds[0]), RUN_FILES[0])).parent
             there = {path.name for path in folder.iterdir()} if folder.is_dir() else set[str]()
             for block in self.blocks:
-                names = [f"seed-{seed}.{kind}" for seed in block.seeds for kind in RUN_FILES]
-                chosen = next((name for name in names if name not in there), names[0])
-                yield f"{results}/runs/{spec.cell}/{chosen}"
+                files = [
+                    file_of(spec.run(seed), kind) for seed in block.seeds for kind in RUN_FILES
+                ]
+                missing = (file for file in files if file.rpartition("/")[2] not in there)
+                yield f"{results}/{next(missing, files[0])}"
 
     def spec(self, task: str, name: str, alpha: float | None, seeds: tuple[int, ...]) -> Spec:
         """The specification of a task, an architecture and a step size, for some seeds."""

@@ -9,7 +9,8 @@ from pydantic import BeforeValidator, Field, ValidationError
 
 from upswing.study.config import Architecture, Seed, Share, Strict, Task, listed, once
 from upswing.study.errors import BadInput, explained, shown
-from upswing.study.names import Alpha, Name, alpha_text
+from upswing.study.ids import cell_id, run_id
+from upswing.study.names import Alpha, Name
 from upswing.study.readings import Readings
 
 
@@ -43,7 +44,7 @@ class Spec(Strict):
 
     def run(self, seed: int) -> str:
         """The id of a run, and its path below ``runs`` without an ending."""
-        return f"{self.cell}/seed-{seed}"
+        return run_id(self.cell, seed)
 
     def columns(self, seed: int) -> dict[str, Any]:
         """What a table says of which run it is."""
@@ -94,11 +95,6 @@ def parse(text: str) -> Spec:
             [f"spec: alpha: {shown(spec.alpha)}: a control has null, a learner a number"]
         )
     return spec
-
-
-def cell_id(task: str, architecture: str, alpha: float | None) -> str:
-    """The id of a cell: ``{task}/{architecture}/alpha-{alpha}``."""
-    return f"{task}/{architecture}/alpha-{alpha_text(alpha)}"
 
 
 def _no_key_twice(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from upswing.figures import draw
 from upswing.report.page import write_report
 from upswing.runs.files.ledger import ledger_path, ledgers, read_ledger, seal
 from upswing.study.errors import BadInput
-from upswing.study.matrix import RUN_FILES
+from upswing.study.ids import RUN_FILES
 
 CHANGED = "is not the file that was written: its checksum differs"
 RUN = "runs/balancing/table/alpha-0.1/seed-1"

@@ -70,7 +70,7 @@ def foreign(kind, frame):
 
 
 def refused(arguments, path, capsys):
-    """The line in which a verb refuses a table."""
+    """The line in which a subcommand refuses a table."""
     capsys.readouterr()
     assert main([str(argument) for argument in arguments]) == 2
     said = capsys.readouterr().err
@@ -84,7 +84,7 @@ def refused(arguments, path, capsys):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(
-    ("table", "verbs"),
+    ("table", "subcommands"),
     [
         (RUNS, [["verdicts"], ["report"], ["browse", "--print", "--results"], ["comparisons"], ["figure", "overview"], ["compare"]]),
         (CELLS, [["report"]]),
@@ -94,17 +94,21 @@ def refused(arguments, path, capsys):
         (WINDOWS, [["tables"], ["comparisons"]]),
     ],
 )  # fmt: skip
-def test_a_foreign_table_of_a_study_is_refused(folder, table, verbs, kind, capsys, results):
+def test_a_foreign_table_of_a_study_is_refused(folder, table, subcommands, kind, capsys, results):
     path = folder / table
     if table == TRAJECTORY:  # of a run that a claim shows
         recordings = pd.read_parquet(folder / VERDICTS)["recordings"]
         shown = next(paths[0] for paths in recordings if len(paths))
         path = folder / shown.replace(".rrd", ".trajectory.parquet")
     foreign(kind, pd.read_parquet(path)).to_parquet(path)
-    for verb in verbs:
-        if verb == ["compare"]:
+    for subcommand in subcommands:
+        if subcommand == ["compare"]:
             refused(["compare", results.folder, folder], path, capsys)
-        refused([*verb, folder, *([results.folder] if verb == ["compare"] else [])], path, capsys)
+        refused(
+            [*subcommand, folder, *([results.folder] if subcommand == ["compare"] else [])],
+            path,
+            capsys,
+        )
 
 
 OPTIONAL = {

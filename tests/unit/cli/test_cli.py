@@ -1,4 +1,4 @@
-"""The verbs, from outside: what they answer to bad input."""
+"""The subcommands, from outside: what they answer to bad input."""
 
 import json
 
@@ -49,4 +49,4 @@ def test_without_a_verb_the_usage_is_shown(capsys):
     with pytest.raises(SystemExit) as stopped:
         main([])
     assert stopped.value.code == 2
-    assert "VERB" in capsys.readouterr().err
+    assert "SUBCOMMAND" in capsys.readouterr().err

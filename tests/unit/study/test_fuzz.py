@@ -243,7 +243,7 @@ def test_hostile_yaml_is_one_message_in_time_and_runs_nothing(tmp_path, text, ca
 @FEW
 @given(data=st.data())
 def test_damaged_results_are_a_message_and_never_a_traceback(results, tmp_path_factory, data):
-    """Bytes changed anywhere in any file that a verb reads."""
+    """Bytes changed anywhere in any file that a subcommand reads."""
     folder = tmp_path_factory.mktemp("damaged")
     for name in (
         "study.json",

@@ -13,6 +13,7 @@ import json
 import pandas as pd
 
 from upswing.runs.success import succeeds
+from upswing.study.ids import CellId
 from upswing.study.sweeps import CELLS_OF_SELECTION, SELECTION
 
 SWEEP, CELLS = SELECTION, CELLS_OF_SELECTION
@@ -33,7 +34,7 @@ def select(runs: pd.DataFrame) -> pd.DataFrame:
     for readings, of in runs.groupby("readings", sort=False):
         row = dict(json.loads(str(readings)))
         for name, cell in CELLS.items():
-            own = succeeds(of[of["cell"] == cell], cell.split("/")[0])
+            own = succeeds(of[of["cell"] == cell], CellId.parse(cell).task)
             row[f"{name}_successes"] = int(own.sum())
             row["runs"] = len(own)
             row[name] = (own.sum() + 1) / (len(own) + 2)

@@ -11,6 +11,7 @@ from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import metadata
 from upswing.runs.files.table import Columns, read_table
 from upswing.study.errors import BadInput
+from upswing.study.ids import recording_of
 
 RUNS = "tables/runs.parquet"
 CELLS = "tables/cells.parquet"
@@ -97,7 +98,7 @@ def read_runs(results: Path, runs: Collection[str], more: Columns | None = None)
     for run, recording in zip(frame["run"], frame["recording"], strict=True):
         if run not in known:
             raise BadInput([f"{path}: {run}: is no run of this study; {remedy}"])
-        if recording != f"runs/{run}.rrd":
+        if recording != recording_of(run):
             raise BadInput([f"{path}: {run}: {recording}: is not its recording; {remedy}"])
     _once(path, frame, ["run"], remedy)
     return frame

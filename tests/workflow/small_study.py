@@ -1,0 +1,116 @@
+"""A small study, and a checkout of the workflow in a folder of its own to run it in."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from tests.paths import ROOT
+
+BIN = Path(sys.executable).parent
+KEPT = ("Snakefile", "workflow", "report", "config")
+SMALL = {
+    "results": "results",
+    "seeds": 2,
+    "seeds_per_job": 2,
+    "tasks": {
+        "balancing": {"kind": "balancing", "steps": 6_000},
+        "full-control": {"kind": "full-control", "steps": 6_000},
+    },
+    "architectures": {
+        "table": {"learner": "table"},
+        "networks-5": {"learner": "networks", "hidden": [5]},
+        "idle": {"learner": "control", "behaviour": "idle"},
+        "random": {"learner": "control", "behaviour": "random"},
+    },
+    "experiments": [
+        {"tasks": ["balancing"], "architectures": ["table", "networks-5"], "alphas": [1]},
+        {"tasks": ["full-control"], "architectures": ["table"], "alphas": [0.001]},
+        {"tasks": ["full-control"], "architectures": ["idle", "random"]},
+    ],
+}
+FIGURES_OF_SMALL = 6  # 5, 7 and 8 have all their cells, and there are three of ours
+
+
+class Study:
+    """A checkout's workflow in a temporary folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        for name in KEPT:
+            source = ROOT / name
+            copy = shutil.copytree if source.is_dir() else shutil.copy
+            copy(source, folder / name)
+        self.write(SMALL)
+
+    def write(self, content) -> None:
+        text = content if isinstance(content, str) else yaml.safe_dump(content)
+        (self.folder / "config/small.yaml").write_text(text, "utf-8")
+
+    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [
+                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
+                "--configfile", "config/small.yaml", *arguments,
+            ],
+            cwd=self.folder,
+            env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"},
+            capture_output=True,
+            text=True,
+            check=False,
+        )  # fmt: skip
+
+    def jobs(self, *arguments: str) -> dict[str, int]:
+        """Run the study and count the jobs that ran, by rule."""
+        done = self.snakemake(*arguments)
+        output = done.stdout + done.stderr
+        assert done.returncode == 0, output
+        ran: dict[str, int] = {}
+        for rule in re.findall(r"^(?:local)?rule (\w+):", output, re.MULTILINE):
+            ran[rule] = ran.get(rule, 0) + 1
+        ran.pop("all", None)
+        return ran
+
+
+class Edited(Study):
+    """A study with a copy of the package, which it runs and a test may edit."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__"))
+        self.write({**SMALL, "seeds": 2})
+
+    def snakemake(self, *arguments, versions=""):
+        environment = {
+            **os.environ,
+            "PATH": f"{BIN}:{os.environ['PATH']}",
+            "PYTHONPATH": f"{versions}{self.folder / 'src'}",
+        }
+        return subprocess.run(
+            [
+                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
+                "--configfile", "config/small.yaml", *arguments,
+            ],
+            cwd=self.folder, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    def plan(self, **more):
+        """The jobs that would run, by rule, without running them."""
+        done = self.snakemake("--dry-run", **more)
+        output = done.stdout + done.stderr
+        assert done.returncode == 0, output
+        planned = {}
+        for rule in re.findall(r"^(?:local)?rule (\w+):", output, re.MULTILINE):
+            planned[rule] = planned.get(rule, 0) + 1
+        planned.pop("all", None)
+        return planned
+
+    def edit(self, file, old, new):
+        path = self.folder / file
+        text = path.read_text("utf-8")
+        assert old in text, f"{old!r} is no longer in {file}"
+        path.write_text(text.replace(old, new, 1), "utf-8")
