@@ -12,7 +12,7 @@ from upswing.physics.tasks import ACTIONS
 PROBLEMS = 300
 STATES = 12
 INTERVALS = 30
-"""Of so many random problems with so many states, so many full intervals are watched."""
+"""Number of random problems, of their states, and of the full intervals watched of each."""
 
 DISCOUNT = 0.7
 """γ, as in the rest of the thesis (§4.5.1)."""

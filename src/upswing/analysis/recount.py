@@ -41,7 +41,7 @@ from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 
 ALIKE = 1e-9
-"""Numbers of statistics may differ by so much from machine to machine, relatively."""
+"""Relative difference that statistics may have from machine to machine."""
 
 Wrong = tuple[str, str]  # a table, and what is wrong with it
 

@@ -21,7 +21,7 @@ STYLES = {
     "not in this study": "dim",
 }
 SHOWN = 10
-"""Of a long list of runs, so many are named."""
+"""Number of runs named of a long list."""
 
 
 def print_verdicts(verdicts: pd.DataFrame) -> None:

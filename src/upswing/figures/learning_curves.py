@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=())
 WINDOWS = 40
-"""A curve has so many points."""
+"""Number of points of a curve."""
 
 
 def draw(results: "Results") -> "Drawing":

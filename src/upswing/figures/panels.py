@@ -15,7 +15,7 @@ from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
 from upswing.runs.results import Crowd, OneRun, Real, Results
 
 POINTS = 200
-"""A crowd's line has about so many points."""
+"""Approximate number of points of a crowd's line."""
 
 LINE = 0.14
 """Height of a label [inch]."""
@@ -89,7 +89,7 @@ def falls(axes: Axes, crowds: Sequence[tuple[str, str, Crowd]], steps: int | Non
     Args:
         axes: where to draw.
         crowds: (cell, label, its runs) of each cell; all runs are drawn of the first.
-        steps: draw only so many first steps.
+        steps: number of first steps to draw; all without it.
     """
     _crowd(axes, [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in crowds], steps)
     axes.set(ylabel="falls so far", title=f"All {len(crowds[0][2].seeds)} runs")

@@ -24,7 +24,7 @@ GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
 """Each twice as fine as the one before; −90°, ±20° and rest are among the points of all of them."""
 
 PIXELS = 200
-"""A map has at most so many points along each axis."""
+"""Largest number of points of a map along each axis."""
 
 
 def write_bound(results: Path, grids: Sequence[Grid] | None = None) -> None:
@@ -78,7 +78,7 @@ def _step(columns: int) -> int:
 
 
 def actions_at(policy: Any, body: Pendulum, angles: Array, velocities: Array) -> NDArray[np.int8]:
-    """What a policy does in so many states [rad], [rad/s]; arrays of one length."""
+    """What a policy does in states [rad], [rad/s]; arrays of one length."""
     actions = np.zeros(len(angles), dtype=np.int8)
     _fill(policy, body, angles, velocities, actions)
     return actions

@@ -17,10 +17,10 @@ TOLERANCE = 1e-4
 """A time is known when no sweep changes it by more [steps]."""
 
 NEVER = 1e6
-"""So many steps serve as endless, where nothing leads to upright."""
+"""Number of steps that stands for endless, where nothing leads to upright."""
 
 NEVER_TAKEN = 10_000
-"""Who has followed the policy for so long does not arrive any more [steps]."""
+"""Number of steps after which the policy is taken never to arrive."""
 
 
 class Fastest(NamedTuple):

@@ -24,7 +24,7 @@ Score = tuple[float, float]
 """What is made as large as possible, and what decides between two that are equally large."""
 
 BALANCED = 50_000
-"""When balancing, a start is followed for at most so long [steps]: as long as a run of the study."""
+"""Largest number of steps that a start is followed when balancing: the length of a run of the study."""
 
 
 class TilePolicy(NamedTuple):

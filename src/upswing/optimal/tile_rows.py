@@ -11,10 +11,10 @@ from upswing.optimal.tile_policy import Actions, TilePolicy, score, thesis_tiles
 from upswing.optimal.tile_search import Found, learned, projected, search
 
 BUDGET = 600
-"""A search tries so many changes of each of the policies it begins with …"""
+"""Number of changes that a search tries of each of the policies it begins with …"""
 
 FURTHER = 3_000
-"""… and then so many of the best."""
+"""… and then of the best."""
 
 SEEDS = range(1000, 1004)
 """The tables that were learned to begin with: seeds that no verdict uses."""

@@ -21,13 +21,13 @@ from upswing.study.readings import Readings
 from upswing.study.spec import NamedArchitecture, NamedTask, Spec
 
 TOGETHER = 4
-"""At most so many tiles are changed at a time."""
+"""Largest number of tiles that are changed at a time."""
 
 PERFECT: dict[str, Score] = {"balancing": (1.0, 1.0), "full-control": (1.0, 0.0)}
 """Nothing scores more than this."""
 
 SAMPLES = 24
-"""So many angles and velocities of a tile vote for its action."""
+"""Number of angles, and of velocities, of a tile that vote for its action."""
 
 
 class Found(NamedTuple):
@@ -74,7 +74,7 @@ def projected(kind: str, body: Pendulum, policy: Any) -> Actions:
 
 
 def learned(kind: str, alpha: float, seed: int, steps: int) -> Actions:
-    """What a table of the thesis does greedily after so many steps of Q-learning."""
+    """What a table of the thesis does greedily after a number of steps of Q-learning."""
     spec = Spec(
         task=NamedTask(name=kind, kind=kind, steps=steps),
         architecture=NamedArchitecture(name="table", learner="table"),

@@ -12,7 +12,7 @@ from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACCELERATIONS, ACTIONS, HORIZONTAL
 
 HALF = 0.5
-"""Of what lies between the points of a grid, so much has to be kept."""
+"""Share of what lies between the points of a grid that has to be kept."""
 
 TOLERANCE = 1e-6
 """A share is known when no sweep changes it by more."""

@@ -21,10 +21,10 @@ from upswing.runs.simulation import body_of
 from upswing.study.ids import CellId, cell_of, run_of, seed_of
 
 POINTS = 100
-"""A run's line has at most so many points."""
+"""Largest number of points of a run's line."""
 
 SHOWN = 2_500
-"""Of the runs of a claim, so many first and so many last steps are shown [steps]."""
+"""Length of the beginning and of the end that are shown of a claim's runs [steps]."""
 
 RANKS = ("worst", "median", "best")
 THICK, MIDDLING, THIN = 3.0, 1.5, 0.6

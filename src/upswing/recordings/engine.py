@@ -28,7 +28,7 @@ from upswing.recordings.singly import compressed
 from upswing.runs.files.atomic import written
 
 PATIENCE = 20.0
-"""The viewer's own server has so long to start [s]."""
+"""Time limit for the viewer's own server to start [s]."""
 
 FILES = ("re_viewer.js", "re_viewer_bg.wasm")
 DIGEST = 64

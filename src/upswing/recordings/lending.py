@@ -29,10 +29,10 @@ PORT = 9873
 """Where the report is served, if nobody else is there."""
 
 CONNECTIONS = 16
-"""So many at once; whoever comes when there are more is turned away."""
+"""Largest number of connections at a time; one more is turned away."""
 
 ASKING, ANSWERING = 5.0, 120.0
-"""A request has so long to arrive, and its answer to be taken [s]."""
+"""Time limits for a request to arrive, and for its answer to be taken [s]."""
 
 PAGE = "report/index.html"
 VIEWER = "report/viewer/"

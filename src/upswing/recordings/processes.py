@@ -17,7 +17,7 @@ from types import FrameType
 from typing import IO
 
 PATIENCE = 5.0
-"""A program that is asked to end has so long before it is killed [s]."""
+"""Time between asking a program to end and killing it [s]."""
 
 _PR_SET_PDEATHSIG = 1
 _ASKED_TO_END = (signal.SIGTERM, signal.SIGHUP)
@@ -68,7 +68,7 @@ def finished(command: Sequence[str], patience: float) -> bytes:
 
     Args:
         command: the program and its arguments; no shell reads them.
-        patience: it has so long [s].
+        patience: time limit [s].
 
     Raises:
         RuntimeError: it failed, in its own last words, or took too long.

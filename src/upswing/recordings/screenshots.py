@@ -27,7 +27,7 @@ WIDTH = 1440
 
 COLOURS = 256
 PATIENCE = 20.0
-"""A viewer has so long to load what it shows [s]."""
+"""Time limit for a viewer to load what it shows [s]."""
 
 
 def take_screenshots(results: Results, folder: Path, run: str, task: str) -> None:

@@ -53,7 +53,7 @@ PAGE = "report/index.html"
 RUNS_CSV, EVIDENCE_CSV = "report/runs.csv", "report/evidence.csv"
 SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
 CAUSES, LIKELIEST = 3, 8
-"""So many readings that decide a claim, and so many of the most likely ones, are shown."""
+"""Number of readings shown: of those that decide a claim, and of the most likely ones."""
 
 Row = dict[str, Any]
 

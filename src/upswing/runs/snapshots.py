@@ -11,7 +11,7 @@ from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.agents.learners import Learner
 
 MOMENTS = 40
-"""About so many moments, dense at the beginning, where learning is fast."""
+"""Approximate number of moments, dense at the beginning, where learning is fast."""
 
 Real = NDArray[np.float64]
 

@@ -27,7 +27,7 @@ T = TypeVar("T")
 LARGEST_SEED = 2**32 - 1
 LONGEST_RUN = 100_000_000
 MOST_RUNS = 10_000
-"""Of a study: Snakemake plans so many in half a minute, even where all are of one cell."""
+"""Largest number of runs of a study: Snakemake plans them in half a minute, even in one cell."""
 
 
 def _no_value_twice(values: tuple[T, ...]) -> tuple[T, ...]:
@@ -194,14 +194,15 @@ class Architecture(Strict):
         description="Codings fine and hashed: each tile of the thesis is cut cuts × cuts.",
     )
     entries: Annotated[int, Field(ge=1, le=1_000_000)] | None = Field(
-        default=None, description="Coding hashed: into so many entries the tiles are scattered."
+        default=None,
+        description="Coding hashed: number of entries that the tiles are scattered over.",
     )
     trace: Share | None = Field(
         default=None, description="Method q-lambda: the λ by which a trace decays, beside γ."
     )
     halved_after: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
         default=None,
-        description="Learner decaying: an entry's α is half of its first after so many updates of it.",
+        description="Learner decaying: number of updates of an entry that halve its α.",
     )
     epsilon: Share | None = Field(default=None, description="Its own ε in place of the study's.")
     discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)] | None = Field(

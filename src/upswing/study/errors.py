@@ -26,7 +26,7 @@ EXPECTED = {
 Place = tuple[int | str, ...]
 
 MOST_SHOWN = 100
-"""Of the problems: who listed 10,000 seeds wrongly need not read so many lines."""
+"""Largest number of problems that are printed: 10,000 wrong seeds need not be read one by one."""
 
 LONGEST = 60
 """Of a value that is shown [characters]."""

@@ -11,10 +11,10 @@ import numpy as np
 from pydantic import AfterValidator, Field
 
 LONGEST = 60
-"""Of a name [characters]."""
+"""Largest length of a name [characters]."""
 
 DIGITS = 12
-"""An α is written with at most so many significant digits, so that two that differ can be told apart."""
+"""Largest number of significant digits of an α: two that differ can then be told apart."""
 
 SMALLEST_ALPHA = 1e-9
 NO_ALPHA = "none"

@@ -23,7 +23,7 @@ Cells = Annotated[tuple[CellName, ...], BeforeValidator(listed), once]
 Names = Annotated[tuple[str, ...], BeforeValidator(listed), once, Field(min_length=1)]
 Pair = Annotated[tuple[str, ...], BeforeValidator(listed), Field(min_length=2, max_length=2)]
 MOST_READINGS = 5_000
-"""Of a grid: a job for every few of them."""
+"""Largest number of readings of a grid; every few of them are a job."""
 
 SELECTION = "selection"
 """The sweep by which the networks' default is chosen."""

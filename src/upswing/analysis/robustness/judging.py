@@ -21,7 +21,7 @@ HOLDS = ("reproduced", "partly")
 """Verdicts under which a claim holds, at least partly."""
 
 BEST_PAIRS = 2
-"""Of a pair of readings, so many pairs of options are named."""
+"""Number of pairs of options named of a pair of readings."""
 
 Row = dict[str, Any]
 

@@ -12,4 +12,4 @@ STEPS = {"balancing": 2_000, "full-control": 4_000}
 """How long each start is followed: 10 s and 20 s [steps]."""
 
 JUDGED = 1_000
-"""Of full control, so many last steps are judged: 5 s [steps]."""
+"""Length of the end that is judged in full control: 5 s [steps]."""

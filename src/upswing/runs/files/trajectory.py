@@ -23,11 +23,11 @@ WHOLE_AT_START = 5_000
 WHOLE_AT_END = 2_500
 WHOLE_AROUND_FALL = 100
 WHOLE_FALLS = 20
-"""So many first falls are kept with so many steps around them; of later ones the step itself."""
+"""Number of first falls kept with the steps around them; of later falls only the step itself is."""
 
 WHOLE_BEFORE_SUCCESS, WHOLE_AFTER_SUCCESS = 500, 1_500
 THINNED = 4_000
-"""About so many steps, evenly spread, are kept of the rest."""
+"""Approximate number of steps, evenly spread, that are kept of the rest."""
 
 SCHEMA = pa.schema(
     [

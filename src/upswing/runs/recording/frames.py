@@ -15,10 +15,10 @@ FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
 TIMELINES = (FRAME, STEP, SIM_TIME)
 
 STRETCH = 450
-"""Of the beginning, the first success, the worst stretch and the end, so much is shown [steps]."""
+"""Lengths shown of the beginning, the first success, the worst stretch and the end [steps]."""
 
 BEFORE_SUCCESS = 150
-"""The stretch of the first success begins so much before it [steps]."""
+"""Distance of the beginning of its stretch from the first success [steps]."""
 
 DRAWN_EVERY = 4
 """The pendulum is drawn 50 times a second [steps]."""

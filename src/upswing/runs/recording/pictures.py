@@ -14,7 +14,7 @@ from upswing.runs.recording.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.runs.snapshots import Snapshots
 
 TRAIL = 24
-"""The phase plane shows the last so many drawings, half a second."""
+"""Number of drawings whose states the phase plane shows: half a second."""
 
 PIXELS = (10, 4)
 """The size of a tile in the maps: of φ and of φ̇."""

@@ -29,10 +29,10 @@ from upswing.study.ids import recording_id
 from upswing.study.measured import Measures
 
 ENVELOPE = 200
-"""The whole run is shown by the lowest and the highest angle of so many windows, at most."""
+"""Largest number of windows by whose lowest and highest angle the whole run is shown."""
 
 LOGGED_FALLS = 50
-"""So many first falls are named in the log."""
+"""Number of first falls named in the log."""
 
 
 def write_recording(
