@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.runs.simulation import prepare
+from upswing.study.architecture import architecture_named
 from upswing.study.readings import Readings
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec
+from upswing.study.spec import Spec
+from upswing.study.task import task_named
 
 ARCHITECTURES: dict[str, dict[str, Any]] = {
     "table": {"learner": "table"},
@@ -36,8 +38,8 @@ def make_spec(
     """A specification; what is not given is as in the thesis."""
     settings = ARCHITECTURES[architecture]
     return Spec(
-        task=NamedTask(name=kind, kind=kind, steps=steps),
-        architecture=NamedArchitecture(name=architecture, **settings),
+        task=task_named(kind, kind=kind, steps=steps),
+        architecture=architecture_named(architecture, **settings),
         alpha=None if settings["learner"] == "control" else alpha,
         seeds=seeds,
         epsilon=0.01,
@@ -59,8 +61,8 @@ def beyond_spec(
 ) -> Spec:
     """A specification with parts beyond the thesis: options of the architecture by name."""
     return Spec(
-        task=NamedTask(name=kind, kind=kind, steps=steps, **(task or {})),
-        architecture=NamedArchitecture(name="beyond", learner=learner, **options),
+        task=task_named(kind, kind=kind, steps=steps, **(task or {})),
+        architecture=architecture_named("beyond", learner=learner, **options),
         alpha=alpha,
         seeds=(0,),
         epsilon=epsilon,

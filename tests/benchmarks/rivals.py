@@ -14,7 +14,9 @@ import torch
 
 from upswing.physics.environment import empty_trajectory
 from upswing.runs.simulation import prepare
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec
+from upswing.study.architecture import architecture_named
+from upswing.study.spec import Spec
+from upswing.study.task import task_named
 
 HIDDEN: dict[str, tuple[int, ...]] = {
     "table": (),
@@ -33,8 +35,8 @@ def specification(learner: str, steps: int, modular: bool = False) -> Spec:
     hidden = HIDDEN[learner]
     kind = "networks" if hidden else "table"
     return Spec(
-        task=NamedTask(name="full-control", kind="full-control", steps=steps),
-        architecture=NamedArchitecture(name=learner, learner=kind, hidden=hidden, modular=modular),
+        task=task_named("full-control", kind="full-control", steps=steps),
+        architecture=architecture_named(learner, learner=kind, hidden=hidden, modular=modular),
         alpha=1.0 if hidden else 0.001,
         seeds=(0,),
         epsilon=0.01,

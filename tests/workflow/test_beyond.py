@@ -261,7 +261,7 @@ def test_the_chapters_own_configuration_searches_and_reports_on_different_seeds(
 
 def test_every_part_there_is_is_used():
     """A learner, coding or method that no study in ``config/`` uses is tried by nobody."""
-    from upswing.study.config import parts
+    from upswing.study.loading import parts
 
     files = [
         path
@@ -284,21 +284,16 @@ def test_both_configurations_have_the_same_readings():
     assert content[0]["readings"] == content[1]["readings"]
 
 
-def test_a_method_without_a_body_is_refused(monkeypatch):
-    from upswing.agents import algorithms as methods
+def test_an_algorithm_without_a_body_is_refused(monkeypatch):
+    from upswing.agents import algorithms, features
+    from upswing.physics import tasks
 
-    monkeypatch.delitem(methods._learn_from_by_type.bodies, methods_of("sarsa"))
+    readings = Readings()
+    plan = features.Plan(tasks.create("balancing", readings), {"modular": False}, readings)
+    design = algorithms.Design(
+        features.create("grid", plan), 0.7, {}, readings, np.random.default_rng(0)
+    )
+    sarsa = type(algorithms.create("sarsa", design))
+    monkeypatch.delitem(algorithms._learn_from_by_type.bodies, sarsa)
     with pytest.raises(TypeError, match="no body under @learn_from_of"):
-        methods.create("sarsa", methods.Design(1, 0.7, {}, Readings()))
-
-
-def methods_of(name):
-    from upswing.agents import algorithms as methods
-
-    return type(methods.create(name, methods.Design(1, 0.7, {}, Readings())))
-
-
-def test_a_kind_of_task_beyond_the_thesis_is_touched_by_every_reading_and_evaluated():
-    touching = Readings().touching("table", "another", modular=False)
-    assert {"wrap", "reset"} <= set(touching)
-    assert "hand_over" not in touching
+        algorithms.create("sarsa", design)

@@ -15,13 +15,14 @@ from tests.workflow.small_study import BIN, SMALL, Study
 from upswing.cli.main import main
 from upswing.study.check import checked
 from upswing.study.claims import load_claims
-from upswing.study.config import MOST_RUNS, load, validated
+from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.ids import RUN_FILES
 from upswing.study.matrix import Matrix
 from upswing.study.names import alpha_text
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import groups, load_sweeps
+from upswing.study.values import MOST_RUNS
 from upswing.study.yaml_file import read_yaml
 
 CLAIMS = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))

@@ -48,8 +48,8 @@ def changes(results: Results) -> pd.DataFrame:
 
 
 def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any]:
-    runs, kind, horizon = results.cell(spec.cell), spec.task.kind, float(spec.task.steps)
-    success = succeeds(runs, kind)
+    runs, task, horizon = results.cell(spec.cell), spec.task, float(spec.task.steps)
+    success = succeeds(runs, task)
     rate = statistics.share(int(success.sum()), len(success))
     upright = statistics.mean(runs["upright_share"].to_numpy(float))
     times = [None if pd.isna(step) else float(step) for step in runs["first_stable_step"]]
@@ -57,7 +57,7 @@ def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any
     return {
         "cell": spec.cell,
         "task": spec.task.name,
-        "kind": kind,
+        "kind": task.kind,
         "steps": spec.task.steps,
         "architecture": spec.architecture.name,
         "alpha": spec.alpha,
@@ -70,7 +70,9 @@ def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any
         "success_high": rate.high,
         # Of balancing, runs that did not fall; of full control, runs upright nearly all the time.
         "sure": int(
-            success.sum() if kind == "balancing" else (runs["upright_share"] >= EVERY_TIME).sum()
+            success.sum()
+            if task.judged_by == "falls"
+            else (runs["upright_share"] >= EVERY_TIME).sum()
         ),
         "stable": sum(time is not None for time in times),
         "stable_step": median,  # infinite where half of the runs never were stable

@@ -375,7 +375,7 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _schema(options: argparse.Namespace) -> None:
-    from upswing.study.config import schema
+    from upswing.study.json_schema import schema
 
     print(json.dumps(schema(), indent=2, ensure_ascii=False))
 

@@ -1,4 +1,9 @@
-"""Figures 5–11 of the thesis and those that sum them up, drawn from our runs: one file of code each."""
+"""Figures 5–11 of the thesis and those that sum them up, drawn from our runs: one file of code each.
+
+A figure is a file of this folder that says what it shows (``FIGURE = Declaration(…)``) and draws it
+(``def draw(results) -> Drawing``). Those of ``NAMES`` are drawn of every study that has their cells; any
+other is drawn where a study names it under ``figures``.
+"""
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
@@ -8,42 +13,62 @@ from upswing.figures.declaration import Declaration
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.study.errors import BadInput, near
-from upswing.study.loading import load
+from upswing.study.loading import load, parts, source_of
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
     "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11",
     "bound", "changes",
 )  # fmt: skip
+"""The figures of the thesis and of its chapters, in their order."""
 
 
 class _Declarations(Mapping[str, Declaration]):
     """Each read when it is asked for, so that the job of one figure knows no other's code."""
 
     def __getitem__(self, name: str) -> Declaration:
-        if name not in NAMES:
+        if name not in list(self):
             raise KeyError(name)
-        declared: Declaration = load("figures", name).FIGURE
+        declared = load("figures", name).FIGURE
+        if not isinstance(declared, Declaration):
+            raise BadInput([f"{source_of('figures', name)}: FIGURE: must be a Declaration(…)"])
         return declared
 
     def __iter__(self) -> Iterator[str]:
-        return iter(NAMES)
+        yield from NAMES
+        yield from (name for name in parts("figures") if name not in NAMES)
 
     def __len__(self) -> int:
-        return len(NAMES)
+        return len(list(iter(self)))
 
 
 FIGURES: Mapping[str, Declaration] = _Declarations()
 """What each figure shows, by its name; in the thesis ``fig05`` is figure 5."""
 
 
-def drawable(cells: Iterable[str], changes: bool = False) -> list[str]:
-    """The figures that can be drawn of a study with these cells, perhaps of changes to the thesis."""
+def drawable(cells: Iterable[str], changes: bool = False, asked: Iterable[str] = ()) -> list[str]:
+    """The figures that can be drawn of a study.
+
+    Args:
+        cells: ids of its cells.
+        changes: whether it is one of changes to the thesis.
+        asked: the figures that it names itself.
+
+    Raises:
+        BadInput: a figure that it names shows a cell that it does not have.
+    """
     known = set(cells)
+    if problems := [
+        f"figures: {name}: shows {cell}, which is no cell of this study; {near(cell, known)[:200]}"
+        for name in asked
+        for cell in FIGURES[name].cells
+        if cell not in known
+    ]:
+        raise BadInput(problems)
     return [
         name
-        for name, figure in FIGURES.items()
-        if set(figure.cells) <= known and (changes or not figure.tables)
+        for name in dict.fromkeys((*NAMES, *asked))
+        if set(FIGURES[name].cells) <= known and (changes or not FIGURES[name].tables)
     ]
 
 
@@ -52,11 +77,14 @@ def draw(name: str, results: Path) -> None:
     name = f"fig{int(name):02d}" if name.isdigit() else name
     if name not in FIGURES:
         raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
+    from upswing.figures.panels import Drawing
     from upswing.figures.style import save
     from upswing.runs.results import Results
 
     declared = FIGURES[name]
     drawing = load("figures", name).draw(Results(results))
+    if not isinstance(drawing, Drawing):
+        raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
     place = results / "figures" / name
     save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:

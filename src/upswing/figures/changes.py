@@ -26,7 +26,8 @@ def draw(results: "Results") -> "Drawing":
     from upswing.study.ids import CellId
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
-    table = changes[changes["kind"] != "balancing"]
+    upright = [results.task(cell).judged_by == "upright" for cell in changes["cell"]]
+    table = changes[upright]
     titles = list(dict.fromkeys(table["change"]))
     palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#56B4E9", "#777777"]
     shades = {title: palette[n % len(palette)] for n, title in enumerate(titles)}

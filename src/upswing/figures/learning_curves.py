@@ -14,7 +14,7 @@ WINDOWS = 40
 
 
 def draw(results: "Results") -> "Drawing":
-    """A panel for each kind of task: the median of every cell, with its quartiles for some."""
+    """Panels for the first task of each way of judging: medians of cells, with their quartiles."""
     import numpy as np
 
     from upswing.analysis.colours import colour
@@ -24,11 +24,12 @@ def draw(results: "Results") -> "Drawing":
     from upswing.study.ids import CellId
 
     figure, axes = grid_of_panels(2, (3, 2), height=2.4)
-    for number, kind in enumerate(("balancing", "full-control")):
-        cells = [
-            cell for cell, spec in results.cells.items()
-            if spec.task.name == kind and spec.task.kind == kind
-        ]  # fmt: skip
+    for number, judged_by in enumerate(("falls", "upright")):
+        tasks = [
+            spec.task.name for spec in results.cells.values() if spec.task.judged_by == judged_by
+        ]
+        task = tasks[0] if tasks else ""
+        cells = [cell for cell, spec in results.cells.items() if spec.task.name == task]
         # Of each architecture the step size with most successes, and with α = 1 if that is another.
         chosen: dict[str, str] = {}
         for cell in cells:
@@ -46,7 +47,7 @@ def draw(results: "Results") -> "Drawing":
                 crowd = results.crowd(cell)
                 group = max(1, len(crowd.last_step) // WINDOWS)
                 begins = np.arange(0, len(crowd.last_step), group)
-                if kind == "balancing":
+                if judged_by == "falls":
                     steps = np.diff(crowd.last_step, prepend=0)
                     per = np.add.reduceat(steps, begins) / 1_000
                     values = np.add.reduceat(crowd.falls, begins, axis=1) / per
@@ -64,9 +65,10 @@ def draw(results: "Results") -> "Drawing":
                     else CellId.parse(cell).architecture
                 )
                 ends.append((float(middle[-1]), words, shade))
-            panel.set_title(f"{kind}, {name}")
-            panel.set_ylabel("falls per 1,000 steps" if kind == "balancing" else "upright [%]")
-            if kind != "balancing":
+            panel.set_visible(bool(cells))
+            panel.set_title(f"{task}, {name}")
+            panel.set_ylabel("falls per 1,000 steps" if judged_by == "falls" else "upright [%]")
+            if judged_by == "upright":
                 panel.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
             else:
                 panel.set_ylim(bottom=0)

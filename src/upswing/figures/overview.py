@@ -35,11 +35,11 @@ def draw(results: "Results") -> "Drawing":
         width_ratios=(1, 1), sharey="row", squeeze=False,
     )  # fmt: skip
     for (task, cells), (left, right) in zip(tasks.items(), grid, strict=True):
-        balancing = results.kind(cells[0]) == "balancing"
+        by_falls = results.task(cells[0]).judged_by == "falls"
         for row, cell in enumerate(cells):
             runs = results.cell(cell)
             shade = colour(cell)
-            values = runs["falls_last_fifth"] if balancing else 100 * runs["upright_share"]
+            values = runs["falls_last_fifth"] if by_falls else 100 * runs["upright_share"]
             # Seeds lie a little apart, in their order.
             apart = np.linspace(-0.28, 0.28, len(values))
             left.scatter(values, row + apart, s=4, color=shade, alpha=0.6, linewidths=0)
@@ -54,7 +54,7 @@ def draw(results: "Results") -> "Drawing":
         left.set_ylim(len(cells) - 0.4, -0.6)
         left.set_title(f"{task}: every run")
         right.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
-        if balancing:
+        if by_falls:
             left.set_xscale("symlog", linthresh=1)
             left.set_xlim(-0.15, None)
             left.set_xticks((0, 1, 10, 100), ("0", "1", "10", "100"))

@@ -51,7 +51,7 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
         middles = np.repeat(first + run.windows["steps"].to_numpy(float) / 2, 2)
         extremes = np.degrees(run.windows[["lowest_angle", "highest_angle"]].to_numpy(float))
         axes.plot(middles, extremes.ravel(), color=colour(cell), linewidth=0.6)
-    limit = 90 if run.kind == "balancing" else 180
+    limit = run.task.angle_limit
     axes.set(ylim=(-1.08 * limit, 1.08 * limit), yticks=np.linspace(-limit, limit, 5))
     axes.set(xlim=(0, last), ylabel="angle φ [°]", title=f"Median run (seed {run.seed})")
     steps_axis(axes)
@@ -122,7 +122,7 @@ def one_and_all(
         cells: ids and labels of the cells.
         beside: cells whose medians are drawn beside the crowds, for comparison.
     """
-    if len(cells) == 1 and results.kind(cells[0][0]) == "full-control":
+    if len(cells) == 1 and results.task(cells[0][0]).judged_by == "upright":
         return _three_and_all(results, cells[0], beside)
     figure, panels = grid_of_panels(len(cells))
     shown = []
@@ -131,10 +131,11 @@ def one_and_all(
         left, right = panels[2 * row : 2 * row + 2]
         shown.append(results.median_run(cell))
         crowd = results.crowd(cell)
-        one_run = angle if crowd.kind == "balancing" else whereabouts
+        by_falls = crowd.task.judged_by == "falls"
+        one_run = angle if by_falls else whereabouts
         one_run(left, shown[-1], cell)
         left.set_title(f"Median run (seed {shown[-1].seed})")
-        all_runs = falls if crowd.kind == "balancing" else upright
+        all_runs = falls if by_falls else upright
         all_runs(right, [(cell, label, crowd), *compared])
         if len(cells) > 1:
             left.set_title(f"{label}: {left.get_title(loc='left').lower()}", loc="left")

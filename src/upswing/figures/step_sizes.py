@@ -49,8 +49,7 @@ def draw(results: "Results") -> "Drawing":
         panel.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100), xlabel="step size α")
         criterion = (
             "without a fall in the last fifth"
-            if results.kind(next(c for c in results.cells if c.startswith(f"{task}/")))
-            == "balancing"
+            if results.study.tasks[task].judged_by == "falls"
             else f"upright for {SUCCESS:.0%} of the last fifth"
         )
         panel.set_title(f"{task}: runs {criterion} [%]")

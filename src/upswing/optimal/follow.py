@@ -11,11 +11,11 @@ from upswing.physics import tasks
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import HORIZONTAL
-from upswing.physics.tasks.episodes import JUDGED, STARTS, STEPS
 from upswing.runs.metrics import UPRIGHT, last_fifth
 from upswing.runs.simulation import streams
 from upswing.runs.success import SUCCESS
 from upswing.study.readings import Readings
+from upswing.study.task import kind_of_task
 
 RUN = 1_000_000
 """The length of a run with exploring, as in the study [steps]."""
@@ -61,10 +61,12 @@ def explored(policy: Any, body: Pendulum, seed: int = 0, steps: int = RUN) -> Fo
 def from_starts(policy: Any, body: Pendulum) -> Starts:
     """Full control from every start of the study's greedy evaluation, hanging first, with ε = 0."""
     shares, rewards = [], []
-    for start in STARTS["full-control"]:
-        angles = without_exploring(policy, body, float(start), 0.0, STEPS["full-control"])
-        shares.append(float((np.abs(angles[-JUDGED - 1 : -1]) <= UPRIGHT).mean()))
-        rewards.append(-float((angles[-JUDGED:] ** 2).mean()))
+    task = kind_of_task("full-control")
+    judged = task.greedy_judged
+    for start in task.greedy_starts:
+        angles = without_exploring(policy, body, start, 0.0, task.greedy_steps)
+        shares.append(float((np.abs(angles[-judged - 1 : -1]) <= UPRIGHT).mean()))
+        rewards.append(-float((angles[-judged:] ** 2).mean()))
     succeeded = [share >= SUCCESS for share in shares]
     return Starts(
         success_share=float(np.mean(succeeded)),

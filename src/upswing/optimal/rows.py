@@ -8,12 +8,12 @@ import numpy as np
 from upswing.optimal.follow import Starts, explored, from_starts
 from upswing.optimal.min_time import steps_taken
 from upswing.optimal.solved import FAR_SIGHTED, THESIS, Solved, area, at_rest
+from upswing.optimal.tables import FULL_CONTROL
 from upswing.optimal.viability import balanced_angle, catchable_speed, catchable_speed_on
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum
 
 EXACT = "exact"
-FULL_CONTROL = "full-control"
 
 SEEDS = range(10)
 """Runs with exploring have the starts and the draws of these runs of the study."""

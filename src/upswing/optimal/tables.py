@@ -3,6 +3,9 @@
 BOUND = "tables/bound.parquet"
 MAPS = "tables/bound_maps.parquet"
 
+FULL_CONTROL = "full-control"
+"""The task that rows are of, where no other is said."""
+
 OF_THE_BOUND = {
     "quantity": "text", "value": "number", "unit": "text", "grid": "text", "task": "text",
     "policy": "text?", "discount": "number", "note": "text",

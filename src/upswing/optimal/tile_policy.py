@@ -9,12 +9,13 @@ from upswing.agents.features import locate
 from upswing.agents.features.grid import Tiles, tiles_for
 from upswing.optimal.grid import step
 from upswing.optimal.policies import act_of
+from upswing.physics import tasks
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import HORIZONTAL
-from upswing.physics.tasks.episodes import JUDGED, STARTS, STEPS
 from upswing.runs.metrics import UPRIGHT
 from upswing.study.readings import Readings
+from upswing.study.task import kind_of_task
 
 Actions = NDArray[np.int8]
 """An action for each tile, shape (tiles,), indices into ``ACCELERATIONS``."""
@@ -41,7 +42,7 @@ def _act(policy: TilePolicy, body: Pendulum, angle: float, angular_velocity: flo
 
 def thesis_tiles(kind: str) -> Tiles:
     """The tiles of one table: 80 when balancing, 160 for full control (§4.5.1, §4.6.1)."""
-    return tiles_for(kind, False, Readings())
+    return tiles_for(tasks.create(kind, Readings()), False, Readings())
 
 
 def score(kind: str, body: Pendulum, actions: Actions, visits: Visits) -> Score:
@@ -52,9 +53,11 @@ def score(kind: str, body: Pendulum, actions: Actions, visits: Visits) -> Score:
     the starts; then the same of the worst start. ``visits``, shape (tiles,), is raised where it came.
     """
     policy = TilePolicy(thesis_tiles(kind), actions)
-    if kind == "balancing":
-        return _until_falls(policy, body, STARTS[kind], BALANCED, visits)
-    return _at_the_end(policy, body, STARTS[kind], STEPS[kind], JUDGED, visits)
+    task = kind_of_task(kind)
+    starts = np.array(task.greedy_starts)
+    if task.judged_by == "falls":
+        return _until_falls(policy, body, starts, BALANCED, visits)
+    return _at_the_end(policy, body, starts, task.greedy_steps, task.greedy_judged, visits)
 
 
 @compiled

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from upswing.optimal.follow import from_starts
-from upswing.optimal.rows import FULL_CONTROL, Row, of_starts, with_exploring
+from upswing.optimal.rows import Row, of_starts, with_exploring
 from upswing.optimal.solved import Solved
+from upswing.optimal.tables import FULL_CONTROL
 from upswing.optimal.tile_policy import Actions, TilePolicy, score, thesis_tiles
 from upswing.optimal.tile_search import Found, learned, projected, search
 

@@ -17,8 +17,10 @@ from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACTIONS
 from upswing.runs.simulation import prepare
+from upswing.study.architecture import architecture_named
 from upswing.study.readings import Readings
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec
+from upswing.study.spec import Spec
+from upswing.study.task import task_named
 
 TOGETHER = 4
 """Largest number of tiles that are changed at a time."""
@@ -76,8 +78,8 @@ def projected(kind: str, body: Pendulum, policy: Any) -> Actions:
 def learned(kind: str, alpha: float, seed: int, steps: int) -> Actions:
     """What a table of the thesis does greedily after a number of steps of Q-learning."""
     spec = Spec(
-        task=NamedTask(name=kind, kind=kind, steps=steps),
-        architecture=NamedArchitecture(name="table", learner="table"),
+        task=task_named(kind, kind=kind, steps=steps),
+        architecture=architecture_named("table", learner="table"),
         alpha=alpha,
         seeds=(seed,),
         epsilon=0.01,

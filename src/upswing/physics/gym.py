@@ -17,8 +17,8 @@ from upswing.physics.elementary import sine_and_cosine
 from upswing.physics.environment import State, move
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACCELERATIONS, ACTIONS
-from upswing.physics.tasks.episodes import STEPS
 from upswing.study.readings import Readings
+from upswing.study.task import kind_of_task
 
 try:
     import gymnasium
@@ -158,5 +158,5 @@ for _id, _kind in ENVIRONMENTS.items():
         _id,
         entry_point="upswing.physics.gym:PendulumEnvironment",
         kwargs={"kind": _kind},
-        max_episode_steps=STEPS[_kind],
+        max_episode_steps=kind_of_task(_kind).greedy_steps,
     )

@@ -45,7 +45,7 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
     missing = [path for group in paths.values() for path in group if not path.is_file()]
     if missing:
         raise BadInput([f"{missing[0]}: missing ({len(missing)} in all); run the study again"])
-    kinds = {cell.task.name: cell.task.kind for cell in results.cells.values()}
+    tasks = {cell.task.name: cell.task for cell in results.cells.values()}
     with (
         TemporaryDirectory() as folder,
         rr.server.Server(host=LOOPBACK, port=port, datasets=dict(paths)) as server,
@@ -55,11 +55,11 @@ def catalog(results: Results, runs: pd.DataFrame, port: int) -> Iterator[Catalog
         datasets = {}
         for task in paths:
             layout = Path(folder) / f"{task}.rbl"
-            run_layout(kinds[task]).save(f"upswing-{task}", layout)
+            run_layout(tasks[task]).save(f"upswing-{task}", layout)
             dataset = client.get_dataset(task)
             dataset.register_blueprint(layout.as_uri())
             table = Path(folder) / f"{task}-table.rbl"
-            table_layout(kinds[task]).save(f"upswing-{task}-table", table)
+            table_layout(tasks[task]).save(f"upswing-{task}-table", table)
             dataset.register_blueprint(table.as_uri(), segment_table=True)
             datasets[task] = f"{server.url()}/entry/{dataset.id}"
             if len(runs) == 1:

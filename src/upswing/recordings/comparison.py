@@ -63,7 +63,7 @@ def write_task(path: Path, results: Results, task: str) -> None:
     Medians and quartiles over the seeds are thicker; a view for each cell, and one of all medians.
     """
     cells = [name for name, cell in results.cells.items() if cell.task.name == task]
-    measure = "falls" if results.kind(cells[0]) == "balancing" else "upright [%]"
+    measure = "falls" if results.task(cells[0]).judged_by == "falls" else "upright [%]"
     views = [
         rrb.TimeSeriesView(
             name=f"Medians: {measure}",
@@ -114,7 +114,7 @@ def write_claim(path: Path, results: Results, claim: str) -> None:
     runs = [run_of(str(path)) for path in verdicts["recordings"].loc[claim]]
     cell = cell_of(runs[0])
     body = body_of(results.cells[cell])
-    limit = 99.0 if results.kind(cell) == "balancing" else 198.0
+    limit = 1.1 * results.task(cell).angle_limit
     columns = [
         rrb.Vertical(
             rrb.Spatial2DView(
@@ -200,7 +200,7 @@ def _in_points(crowd: Crowd) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     windows = len(crowd.last_step)
     group = -(-windows // POINTS)
     begins = np.arange(0, windows, group)
-    if crowd.kind == "balancing":
+    if crowd.task.judged_by == "falls":
         values = np.add.reduceat(crowd.falls, begins, axis=1)
     else:
         sizes = np.diff(begins, append=windows)

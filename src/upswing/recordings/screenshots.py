@@ -47,7 +47,7 @@ def take_screenshots(results: Results, folder: Path, run: str, task: str) -> Non
         headless_viewer() as viewer,
     ):
         layout = Path(temporary) / "layout.rbl"
-        run_layout(cell.task.kind).save(f"upswing-{cell.task.name}", layout)
+        run_layout(cell.task).save(f"upswing-{cell.task.name}", layout)
         viewer.open(str(layout), navigate=False)
         viewer.open(str(results.folder / recording_of(run)))
         _picture(viewer, folder / "run.png", "frame", 1_100)

@@ -47,10 +47,10 @@ def script_of_run(results: Results, run: str) -> str:
 
 def script_of_layout(results: Results, task: str) -> str:
     """The layout of the runs of a task as a script."""
-    kind = next(cell.task.kind for cell in results.cells.values() if cell.task.name == task)
+    of_task = next(cell.task for cell in results.cells.values() if cell.task.name == task)
     with TemporaryDirectory() as folder:
         layout = Path(folder) / "layout.rbl"
-        run_layout(kind).save(f"upswing-{task}", layout)
+        run_layout(of_task).save(f"upswing-{task}", layout)
         return script_of("layout", layout.read_bytes())
 
 

@@ -14,7 +14,7 @@ from upswing.analysis.beyond_tables import (
     OF_THE_CHOSEN,
     REMEDY,
 )
-from upswing.optimal.tables import BOUND, OF_THE_BOUND
+from upswing.optimal.tables import BOUND, FULL_CONTROL, OF_THE_BOUND
 from upswing.runs.files.table import read_table
 
 Row = dict[str, Any]
@@ -61,7 +61,7 @@ def _bound(bound: pd.DataFrame) -> Row:
     found: Row = {}
     steps: dict[str, list[float]] = {}
     for row in _rows(bound):
-        if row["task"] == "balancing" or not np.isnan(row["discount"]):
+        if row["task"] != FULL_CONTROL or not np.isnan(row["discount"]):
             continue
         of = {"tiles": "tiles_", "fastest": "fastest_"}.get(str(row["policy"]), "")
         exact = "exact_" if row["grid"] == "exact" else ""

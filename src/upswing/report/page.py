@@ -192,7 +192,8 @@ def _greedy(runs: list[Row]) -> dict[str, float]:
 def _figures(results: Path) -> list[Row]:
     """Each figure with its words and its picture; ``missing`` where it could not be drawn."""
     pages = []
-    for name, declared in figures.FIGURES.items():
+    for name in dict.fromkeys((*figures.NAMES, *read_study(results).figures)):
+        declared = figures.FIGURES[name]
         place = results / "figures" / name
         page: Row = {"name": name, **declared._asdict(), "missing": True}
         if place.with_suffix(".json").exists():

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 
 from upswing.physics.environment import State, empty_trajectory
-from upswing.physics.tasks.episodes import JUDGED, STARTS, STEPS
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.simulation import Setting, new_method, streams
 from upswing.runs.success import SUCCESS
@@ -18,26 +17,27 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
 
     What was learned stays as it is. A control keeps its own ε: being random is what it does.
     """
-    kind = spec.task.kind
-    *_, stream = streams(seed)
+    task = spec.task
+    *_, stream, decisions = streams(seed)
     epsilon = 0.0 if setting.learner.epsilon is None else setting.learner.epsilon
     rule = setting.rule._replace(step_size=0.0, epsilon=epsilon)
-    steps, successes, upright = STEPS.get(kind, STEPS["full-control"]), 0, 0.0
-    trajectory = empty_trajectory(steps)
-    angles = STARTS.get(kind, STARTS["full-control"])
-    for angle in angles:
+    successes, upright = 0, 0.0
+    trajectory = empty_trajectory(task.greedy_steps)
+    for angle in task.greedy_starts:
         episode = replace(
             setting,
             rule=rule,
             state=State(float(angle), 0.0, 0.0, 0.0),
-            method=new_method(spec, setting.coding),
+            method=new_method(spec, setting.coding, decisions),
             actions=stream,
             starts=stream,
         )
-        episode.advance(trajectory, 0, steps)
-        first = 0 if kind == "balancing" else steps - JUDGED
+        episode.advance(trajectory, 0, task.greedy_steps)
+        first = task.greedy_steps - task.greedy_judged
         # |φ| ≤ 20° on any turn (R4 `unbounded`) is a large cosine.
         share = float(np.mean(np.cos(trajectory.angle[first:]) >= np.cos(UPRIGHT)))
         upright += share
-        successes += not trajectory.reset.any() if kind == "balancing" else share >= SUCCESS
-    return Greedy(successes / len(angles), upright / len(angles))
+        fell = bool(trajectory.reset.any())
+        successes += not fell if task.judged_by == "falls" else share >= SUCCESS
+    of = len(task.greedy_starts)
+    return Greedy(successes / of, upright / of)

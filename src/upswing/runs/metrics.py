@@ -48,15 +48,18 @@ class Windows(NamedTuple):
     mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did
 
 
-def measure(trajectory: Trajectory, kind: str, too_fast: float) -> Measures:
-    """What a run of a ``kind`` of task came to.
+def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures:
+    """What a run came to.
 
-    ``too_fast`` is the speed at the horizontal [rad/s] above which nothing stops the pendulum.
+    Args:
+        trajectory: the run.
+        by_falls: whether a stretch without a fall is stable, or one that is mostly upright.
+        too_fast: the speed at the horizontal above which nothing stops the pendulum [rad/s].
     """
     steps = len(trajectory.angle)
     last = last_fifth(steps)
     falls, upright, above, reward = _sums(trajectory, last, steps)
-    first_stable = _first_stable(trajectory, kind == "balancing", STABLE_STEPS, SUCCESS)
+    first_stable = _first_stable(trajectory, by_falls, STABLE_STEPS, SUCCESS)
     length = steps - last
     below, recovered = _recoveries(trajectory, last, steps)
     swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
@@ -197,21 +200,21 @@ def _fill(trajectory: Trajectory, windows: Windows) -> None:
 
 
 @compiled
-def _first_stable(trajectory: Trajectory, balancing: bool, length: int, share: float) -> int:
+def _first_stable(trajectory: Trajectory, by_falls: bool, length: int, share: float) -> int:
     """The first start of a stable window of ``length`` steps; −1 if there is none."""
     good = 0  # of the window's steps: those without a fall, or those upright
-    needed = length if balancing else share * length
+    needed = length if by_falls else share * length
     for t in range(len(trajectory.angle)):
-        good += _is_good(trajectory, balancing, t)
+        good += _is_good(trajectory, by_falls, t)
         if t >= length:
-            good -= _is_good(trajectory, balancing, t - length)
+            good -= _is_good(trajectory, by_falls, t - length)
         if t >= length - 1 and good >= needed:
             return t - length + 1
     return -1
 
 
 @compiled
-def _is_good(trajectory: Trajectory, balancing: bool, t: int) -> bool:
-    if balancing:
+def _is_good(trajectory: Trajectory, by_falls: bool, t: int) -> bool:
+    if by_falls:
         return not falls_at(trajectory, t)
     return abs(physical(trajectory.angle[t])) <= UPRIGHT

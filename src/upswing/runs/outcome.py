@@ -26,7 +26,9 @@ class Outcome(NamedTuple):
 
 def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) -> Outcome:
     """Measure a run of ``spec`` that ``setting`` has learned and ``trajectory`` holds."""
-    measures = measure(trajectory, spec.task.kind, highest_stoppable_speed(setting.body))
+    measures = measure(
+        trajectory, spec.task.judged_by == "falls", highest_stoppable_speed(setting.body)
+    )
     windows = in_windows(trajectory)
     kept = kept_steps(trajectory, measures.first_stable_step)
     row = {

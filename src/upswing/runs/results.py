@@ -18,21 +18,16 @@ from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of, file_of
 from upswing.study.matrix import Matrix
 from upswing.study.spec import Spec
+from upswing.study.task import NamedTask
 
 Real = NDArray[np.float64]
-
-ORDER_OF_RUNS = {
-    "balancing": {"falls": False, "falls_last_fifth": False, "seed": True},
-    "full-control": {"upright_share": True, "mean_reward": True, "seed": True},
-}
-"""By what the runs of a task are ordered, the worst first; later names break ties. Whether ascending."""
 
 
 class OneRun(NamedTuple):
     """A single run of a cell."""
 
     id: str
-    kind: str  # of its task: "balancing" or "full-control"
+    task: NamedTask
     seed: int
     trajectory: pd.DataFrame  # stored steps: whole at the start and end, thinned between
     windows: pd.DataFrame  # the whole run in windows
@@ -41,7 +36,7 @@ class OneRun(NamedTuple):
 class Crowd(NamedTuple):
     """All runs of a cell, by window; arrays of shape (runs, windows)."""
 
-    kind: str  # of the task: "balancing" or "full-control"
+    task: NamedTask
     seeds: list[int]
     last_step: Real  # after which step a window ends: (windows,)
     falls: Real
@@ -104,13 +99,13 @@ class Results:
             raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
         return self.runs[self.runs["cell"] == cell]
 
-    def kind(self, cell: str) -> str:
-        """The kind of a cell's task: "balancing" or "full-control"."""
-        return self.cells[cell].task.kind
+    def task(self, cell: str) -> NamedTask:
+        """The task of a cell."""
+        return self.cells[cell].task
 
     def in_order(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs, the worst first."""
-        order = ORDER_OF_RUNS.get(self.kind(cell), ORDER_OF_RUNS["full-control"])
+        order = self.task(cell).order_of_runs
         runs = self.with_measures(list(order))
         return runs[runs["cell"] == cell].sort_values(list(order), ascending=list(order.values()))
 
@@ -142,7 +137,7 @@ class Results:
     def _one(self, cell: str, row: pd.Series) -> OneRun:
         return OneRun(
             row["run"],
-            self.kind(cell),
+            self.task(cell),
             int(row["seed"]),
             self.trajectory(row["run"]),
             self._read(row["run"], "windows"),
@@ -157,7 +152,7 @@ class Results:
         rows = self.cell(cell)
         windows = [self._read(run, "windows") for run in rows["run"]]
         return Crowd(
-            kind=self.kind(cell),
+            task=self.task(cell),
             seeds=[int(seed) for seed in rows["seed"]],
             last_step=(windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float),
             falls=np.stack([frame["falls"].to_numpy(float) for frame in windows]),

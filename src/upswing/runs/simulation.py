@@ -26,10 +26,10 @@ REWARD_SCALES = {"half_turn": 4.0, "radians": 1.0, "degrees": (180 / np.pi) ** 2
 def streams(seed: int) -> Iterator[np.random.Generator]:
     """The streams of random numbers of a run, from its seed alone.
 
-    In order: actions, starts, first weights, greedy evaluation. Runs of different cells with the
-    same seed so see the same draws.
+    In order: actions, starts, first weights, greedy evaluation, the algorithm's own draws. Runs of
+    different cells with the same seed so see the same draws.
     """
-    return (np.random.default_rng(child) for child in np.random.SeedSequence(seed).spawn(4))
+    return (np.random.default_rng(child) for child in np.random.SeedSequence(seed).spawn(5))
 
 
 @dataclass
@@ -66,11 +66,9 @@ def prepare(spec: Spec, seed: int) -> Setting:
     """A run of ``spec`` before its first step."""
     readings, settings = spec.readings, spec.architecture
     options = settings.model_dump()
-    actions, starts, weights, _ = streams(seed)
-    task = tasks.create(spec.task.kind, readings)._replace(
-        velocity_weight=float(spec.task.velocity_weight), shaping=float(spec.task.shaping)
-    )
-    coding = codings.create(settings.coding, codings.Plan(spec.task.kind, options, readings))
+    actions, starts, weights, _, decisions = streams(seed)
+    task = tasks.create(spec.task.kind, readings, spec.task.model_dump())
+    coding = codings.create(settings.coding, codings.Plan(task, options, readings))
     scale = REWARD_SCALES[readings.reward_unit]
     learner = learners.create(
         settings.learner,
@@ -97,15 +95,15 @@ def prepare(spec: Spec, seed: int) -> Setting:
         coding=coding,
         rule=rule,
         learner=learner,
-        method=new_method(spec, coding),
+        method=new_method(spec, coding, decisions),
         state=State(*tasks.start(task, starts), 0.0, 0.0),
         actions=actions,
         starts=starts,
     )
 
 
-def new_method(spec: Spec, coding: Coding) -> NamedTuple:
-    """The method of ``spec`` with nothing remembered."""
+def new_method(spec: Spec, coding: Coding, draws: np.random.Generator) -> NamedTuple:
+    """The algorithm of ``spec`` with nothing remembered."""
     options = spec.architecture.model_dump()
-    design = methods.Design(coding.modules, float(spec.discount), options, spec.readings)
+    design = methods.Design(coding, float(spec.discount), options, spec.readings, draws)
     return methods.create(spec.architecture.method, design)

@@ -23,7 +23,7 @@ from upswing.runs.outcome import outcome_of
 from upswing.runs.recording.write import write_recording
 from upswing.runs.simulation import Setting, prepare
 from upswing.runs.snapshots import Snapshots, look, moments, snapshots
-from upswing.study import jobs
+from upswing.study.code import training
 from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.measured import Measures
 from upswing.study.spec import Spec
@@ -96,13 +96,13 @@ def _all_or_none(*files: Path) -> Iterator[None]:
 
 def _identity(one: Spec) -> str:
     """What a finished run must be of to be used again: its specification and the code that trains it."""
-    return f"{jobs.training(one.architecture, one.task.kind).fingerprint} {one.canonical()}"
+    return f"{training(one.architecture, one.task.kind).fingerprint} {one.canonical()}"
 
 
 def _seal(one: Spec, results: Path) -> None:
     """Keep the checksums of a run's files, and what they are of, where neither can change the other."""
     name, files = ledger_of_run(one.run(one.seeds[0])), _files(one, results).values()
-    code = jobs.training(one.architecture, one.task.kind).fingerprint
+    code = training(one.architecture, one.task.kind).fingerprint
     seal(results, name, files, spec=one.canonical(), code=code)
 
 
@@ -129,7 +129,7 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     content: dict[str, Any] = {
         "spec": spec.canonical(),
         "run": spec.run(seed),
-        "code": jobs.training(spec.architecture, spec.task.kind).fingerprint,
+        "code": training(spec.architecture, spec.task.kind).fingerprint,
     }
     outcome: dict[str, Any] = {
         **row,

@@ -18,11 +18,12 @@ from pydantic import (
 )
 
 from upswing.study.cells import check_cells
-from upswing.study.config import Strict, Study, listed, once
+from upswing.study.config import Study
 from upswing.study.errors import BadInput, explained, near
 from upswing.study.measured import MEASURES
 from upswing.study.names import CellName, ClaimName, Text
 from upswing.study.readings import Readings, options_of
+from upswing.study.values import Strict, listed, once
 from upswing.study.yaml_file import read_yaml
 
 if TYPE_CHECKING:  # the workflow reads claims, and need not wait for scipy

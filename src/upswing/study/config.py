@@ -1,81 +1,19 @@
 """What the user wrote: the study as a typed value; unknown keys are refused."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path, PurePosixPath
-from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
+from typing import Annotated, Any
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    ValidationError,
-    WithJsonSchema,
-    model_validator,
-)
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationError
 
-from upswing.study.errors import BadInput, explained, near, problem, shown
-from upswing.study.loading import parts
+from upswing.study.architecture import AnyArchitecture
+from upswing.study.declared import part_name
+from upswing.study.errors import BadInput, explained, near, problem
 from upswing.study.names import Alpha, Name, Text, alpha_text
 from upswing.study.readings import Readings
+from upswing.study.task import AnyTask
+from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
 from upswing.study.yaml_file import read_yaml
-
-T = TypeVar("T")
-
-LARGEST_SEED = 2**32 - 1
-LONGEST_RUN = 100_000_000
-MOST_RUNS = 10_000
-"""Largest number of runs of a study: Snakemake plans them in half a minute, even in one cell."""
-
-
-def _no_value_twice(values: tuple[T, ...]) -> tuple[T, ...]:
-    seen = set[T]()
-    for value in values:
-        if value in seen:
-            raise ValueError(f"{shown(value)} stands there twice")
-        seen.add(value)
-    return values
-
-
-def listed(value: Any) -> Any:
-    """Lists become tuples before strict validation, which takes no list for a tuple."""
-    return tuple(value) if isinstance(value, list) else value
-
-
-def _counted(value: Any) -> Any:
-    if isinstance(value, int) and not isinstance(value, bool):
-        if value < 1:
-            raise ValueError("write how many seeds there are, 1 or more, or list them")
-        if value > MOST_RUNS:
-            raise ValueError(f"a study has at most {MOST_RUNS:,} runs")
-        return tuple(range(value))
-    return listed(value)
-
-
-def _part(kind: str) -> AfterValidator:
-    """A part by the name of its file, which is found without importing it."""
-
-    def known(name: str) -> str:
-        if name not in (there := parts(kind)):
-            *others, last = [repr(one) for one in there]
-            hint = get_close_matches(name, there, n=1)
-            suggestion = f"; did you mean {hint[0]!r}?" if hint else ""
-            raise ValueError(f"must be {', '.join(others)} or {last}{suggestion}")
-        return name
-
-    return AfterValidator(known)
-
-
-def _choice(kind: str) -> WithJsonSchema:
-    return WithJsonSchema({"type": "string", "enum": parts(kind)})
-
-
-Kind = Annotated[str, _part("tasks"), _choice("tasks")]
-LearnerName = Annotated[str, _part("learners"), _choice("learners")]
-CodingName = Annotated[str, _part("codings"), _choice("codings")]
-MethodName = Annotated[str, _part("methods"), _choice("methods")]
 
 
 def _folder(text: str) -> str:
@@ -86,155 +24,6 @@ def _folder(text: str) -> str:
     if text and text != (plain := str(PurePosixPath(text))) and text != f"./{plain}":
         raise ValueError(f"write {plain}")
     return text
-
-
-once = AfterValidator(_no_value_twice)
-"""A list in which nothing stands twice."""
-
-Steps = Annotated[int, Field(ge=1, le=LONGEST_RUN)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
-Seed = Annotated[int, Field(ge=0, le=LARGEST_SEED)]
-Seeds = Annotated[
-    tuple[Seed, ...],
-    Field(min_length=1),
-    BeforeValidator(_counted),
-    once,
-    WithJsonSchema(
-        {
-            "anyOf": [
-                {"type": "integer", "minimum": 1},
-                {
-                    "type": "array",
-                    "items": {"type": "integer", "minimum": 0, "maximum": LARGEST_SEED},
-                    "minItems": 1,
-                    "uniqueItems": True,
-                },
-            ]
-        }
-    ),
-]
-
-
-class Strict(BaseModel):
-    """A frozen value without unknown keys and without conversions."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-
-class GoesWith(NamedTuple):
-    """Which learners, codings or methods an option of an architecture is for."""
-
-    part: str
-    always: tuple[str, ...]  # those that need it
-    sometimes: tuple[str, ...]  # those that may have it
-    meaning: str
-
-
-GOES_WITH = {
-    "hidden": GoesWith(
-        "learner", ("networks", "action-input", "dqn"), ("gated",), "one or two sizes"
-    ),
-    "behaviour": GoesWith("learner", ("control",), (), "idle or random"),
-    "halved_after": GoesWith("learner", ("decaying",), (), "a number of updates"),
-    "cuts": GoesWith("coding", ("fine", "hashed"), (), "a number of cuts"),
-    "entries": GoesWith("coding", ("hashed",), (), "a number of entries"),
-    "trace": GoesWith("method", ("q-lambda",), (), "a share λ"),
-}
-"""The options of architectures; an option of a new learner has its line here."""
-
-
-OURS = ("action-input", "control", "decaying", "dqn", "gated", "networks", "table")
-SUITED = {"continuous": ("control", "dqn", "networks"), "tilings": ("control", "decaying", "table")}
-"""What ours can learn from codings that are more, or less, than one tile."""
-
-
-class Task(Strict):
-    """A task of §4.3 and how long a run of it is."""
-
-    kind: Kind = Field(
-        description="balancing: reset beyond 90°; full-control: any start, never reset."
-    )
-    steps: Steps = Field(description="Steps of 5 ms in one run.")
-    velocity_weight: NotNegative = Field(
-        default=0.0, description="Beyond the thesis: −w·φ̇² is added to what is learned from [s²]."
-    )
-    shaping: NotNegative = Field(
-        default=0.0,
-        description="Beyond the thesis: the height of a potential of energy [rad²].",
-    )
-
-
-class Architecture(Strict):
-    """What learns, and whether one learner or two modules share the state space (§4.4–4.6)."""
-
-    learner: LearnerName = Field(description="What holds Q; a file in src/upswing/agents/learners.")
-    coding: CodingName = Field(
-        default="grid",
-        description="What it is told of a state; a file in src/upswing/agents/features.",
-    )
-    method: MethodName = Field(
-        default="q-learning",
-        description="How it learns from a step; a file in src/upswing/agents/algorithms.",
-    )
-    hidden: Annotated[
-        tuple[Annotated[int, Field(ge=1, le=1000)], ...],
-        BeforeValidator(listed),
-        Field(max_length=2),
-    ] = Field(default=(), description="Sizes of a network's hidden layers, input side first.")
-    behaviour: Literal["idle", "random"] | None = Field(
-        default=None, description="What a control does: always 0, or any action."
-    )
-    modular: bool = Field(
-        default=False, description="One learner above the horizontal and one below (§4.6.3)."
-    )
-
-    cuts: Annotated[int, Field(ge=2, le=32)] | None = Field(
-        default=None,
-        description="Codings fine and hashed: each tile of the thesis is cut cuts × cuts.",
-    )
-    entries: Annotated[int, Field(ge=1, le=1_000_000)] | None = Field(
-        default=None,
-        description="Coding hashed: number of entries that the tiles are scattered over.",
-    )
-    trace: Share | None = Field(
-        default=None, description="Method q-lambda: the λ by which a trace decays, beside γ."
-    )
-    halved_after: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
-        default=None,
-        description="Learner decaying: number of updates of an entry that halve its α.",
-    )
-    epsilon: Share | None = Field(default=None, description="Its own ε in place of the study's.")
-    discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)] | None = Field(
-        default=None, description="Its own γ in place of the study's."
-    )
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        for option, goes in GOES_WITH.items():
-            chosen, given = getattr(self, goes.part), getattr(self, option) not in (None, ())
-            if (chosen in goes.always and not given) or (
-                given and chosen not in (*goes.always, *goes.sometimes)
-            ):
-                names = " or ".join(f"`{goes.part}: {name}`" for name in goes.always)
-                raise ValueError(f"`{option}` ({goes.meaning}) goes with {names}, always")
-        if self.learner == "control" and self.modular:
-            raise ValueError("a control has nothing to divide into modules")
-        if self.learner in OURS and self.learner not in SUITED.get(self.coding, OURS):
-            suited = " or ".join(SUITED[self.coding])
-            raise ValueError(f"`coding: {self.coding}` suits {suited}, not {self.learner}")
-        if self.learner == "dqn" and (self.coding, self.method) != ("continuous", "q-learning"):
-            raise ValueError(
-                "a dqn needs `coding: continuous` and has its own method; leave it out"
-            )
-        if len(self.hidden) > 1 and (
-            self.learner == "action-input"
-            or (self.learner, self.coding) == ("networks", "continuous")
-        ):
-            raise ValueError("`hidden` has one size here: there is one hidden layer")
-        if self.modular and self.coding != "grid":
-            raise ValueError("`modular` divides the grid of the thesis; leave `coding` out")
-        return self
 
 
 class Experiment(Strict):
@@ -294,15 +83,19 @@ class Study(Strict):
         default=15, description="Runs that share one job; more seeds then only add jobs."
     )
     epsilon: Share = Field(default=0.01, description="Share ε of random actions (§4.4).")
-    discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)] = Field(
-        default=0.7, description="Discount γ (§4.5.1)."
-    )
-    tasks: dict[Name, Task] = Field(min_length=1, description="Tasks by name.")
-    architectures: dict[Name, Architecture] = Field(
+    discount: Discount = Field(default=0.7, description="Discount γ (§4.5.1).")
+    tasks: dict[Name, AnyTask] = Field(min_length=1, description="Tasks by name.")
+    architectures: dict[Name, AnyArchitecture] = Field(
         min_length=1, description="Architectures by name."
     )
     experiments: Annotated[tuple[Experiment, ...], BeforeValidator(listed)] = Field(
         min_length=1, description="The cells of the matrix."
+    )
+    figures: Annotated[
+        tuple[Annotated[str, part_name("figures")], ...], BeforeValidator(listed), once
+    ] = Field(
+        default=(),
+        description="Own figures; those of the thesis are drawn wherever their cells are.",
     )
     search: Search | None = Field(
         default=None, description="A search for what succeeds every time, and how soon."
@@ -360,10 +153,10 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
             architecture = study.architectures.get(name)
             if architecture is None:
                 continue
-            if architecture.learner == "control" and experiment.alphas:
+            if experiment.alphas and not architecture.learns:
                 right = f"{name} does not learn and has no α; leave `alphas` out"
                 yield problem(source, f"{place}.alphas", experiment.alphas, right)
-            if architecture.learner != "control" and not experiment.alphas:
+            if architecture.learns and not experiment.alphas:
                 yield f"{source}: {place}.alphas: missing: {name} learns with an α in (0, 1]"
         for task in experiment.tasks:
             for name in experiment.architectures:
@@ -385,8 +178,8 @@ def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
     if search is None:
         return
     task = study.tasks.get(search.task)
-    if task is None or task.kind == "balancing":
-        known = [name for name, one in study.tasks.items() if one.kind != "balancing"]
+    if task is None or task.judged_by != "upright":
+        known = [name for name, one in study.tasks.items() if one.judged_by == "upright"]
         right = f"must be a task of full control; {near(search.task, known or ['none'])}"
         yield problem(source, "search.task", search.task, right)
     if both := sorted(set(search.seeds) & set(study.seeds)):
@@ -398,10 +191,5 @@ def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
             architecture = study.architectures.get(name)
             if architecture is None:
                 yield problem(source, place, name, f"unknown; {near(name, study.architectures)}")
-            elif architecture.learner == "control":
+            elif not architecture.learns:
                 yield problem(source, place, name, "a control learns nothing")
-
-
-def schema() -> dict[str, Any]:
-    """The JSON schema of a study, for editors; ``config/schema.json`` is this."""
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **Study.model_json_schema()}

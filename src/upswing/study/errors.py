@@ -107,6 +107,8 @@ def _explain(source: str, model: type[BaseModel], details: ErrorDetails) -> str:
         case "extra_forbidden":
             known = _fields_at(model, place[:-1])
             return f"{source}: {key_of(place)}: unknown key: {near(place[-1], known)}"
+        case "unknown_option":
+            return f"{source}: {key_of(place)}: {details['msg']}"
         case "missing":
             return f"{source}: {key_of(place)}: missing"
         case "literal_error":

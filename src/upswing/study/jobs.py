@@ -5,62 +5,18 @@ statement shows, so it is said here; ``tests/workflow/test_jobs.py`` runs every 
 """
 
 from collections.abc import Iterable
-from functools import cache
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from upswing.study.config import Architecture, Study
-from upswing.study.fingerprint import COMPUTING_PACKAGES, fingerprint, reachable
-from upswing.study.loading import inner_learner, module_of
+from upswing.study.architecture import architecture_of
+from upswing.study.code import Code, learning
+from upswing.study.code import training as training
+from upswing.study.config import Study
+from upswing.study.loading import module_of
 from upswing.study.matrix import Matrix, searched
 
 if TYPE_CHECKING:
     from upswing.study.sweeps import Sweep
-
-
-class Code(NamedTuple):
-    """The code of a job."""
-
-    entries: tuple[str, ...]  # the modules that it starts from, and those that it loads by name
-    packages: tuple[str, ...]  # distributions whose versions belong to its result
-
-    @property
-    def modules(self) -> set[str]:
-        """Every module of this package that it may import."""
-        return reachable(*self.entries)
-
-    @property
-    def fingerprint(self) -> str:
-        """16 hexadecimal digits that change with the meaning of the code."""
-        return _fingerprint(self)
-
-
-@cache
-def _fingerprint(code: Code) -> str:
-    return fingerprint(*code.entries, packages=code.packages)
-
-
-def loaded_by_name(architecture: Architecture, kind: str) -> tuple[str, ...]:
-    """The modules that are loaded by name when an architecture learns a kind of task."""
-    named = [
-        ("tasks", kind),
-        ("codings", architecture.coding),
-        ("learners", architecture.learner),
-        ("methods", architecture.method),
-    ]
-    if inner := inner_learner(architecture.learner, architecture.hidden):
-        named.append(("learners", inner))
-    return tuple(module_of(part, name) for part, name in named)
-
-
-def _learning(*entries: str, used: Iterable[tuple[Architecture, str]]) -> Code:
-    loaded = {part for architecture, kind in used for part in loaded_by_name(architecture, kind)}
-    return Code((*entries, *sorted(loaded)), COMPUTING_PACKAGES)
-
-
-def training(architecture: Architecture, kind: str) -> Code:
-    """The code that trains an architecture on a kind of task."""
-    return _learning("upswing.runs.train", used=[(architecture, kind)])
 
 
 def sweep(swept: "Sweep", study: Study) -> Code:
@@ -68,7 +24,7 @@ def sweep(swept: "Sweep", study: Study) -> Code:
     cells = Matrix(study).cells
     specs = [cells[cell] for cell in (*swept.cells, *swept.cells_of_singles)]
     used = [(study.architectures[one.architecture.name], one.task.kind) for one in specs]
-    return _learning("upswing.runs.sweep", "upswing.runs.study_file", used=used)
+    return learning("upswing.runs.sweep", "upswing.runs.study_file", used=used)
 
 
 def search(study: Study) -> Code:
@@ -76,13 +32,13 @@ def search(study: Study) -> Code:
     used = [
         (study.architectures[name], study.tasks[task].kind) for task, name, *_ in searched(study)
     ]
-    return _learning("upswing.analysis.search", used=used)
+    return learning("upswing.analysis.search", used=used)
 
 
 def bound() -> Code:
     """The code of the bound; it follows policies on both tasks, and trains tables to begin with."""
-    table = Architecture(learner="table")
-    return _learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
+    table = architecture_of(learner="table")
+    return learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
 
 
 def figure(name: str) -> Code:

@@ -16,14 +16,14 @@ PACKAGES = {
 }
 """Where the parts of each kind lie."""
 
+MARKS = {"figures": "\nFIGURE = "}
+"""What a file has that is a part, where others lie beside it."""
+
 COMPILED = ("codings", "learners", "methods", "tasks")
 """The kinds whose parts hold compiled code."""
 
 SOURCE = Path(__file__).parents[2]
 """The folder of this package."""
-
-BESIDE = ("episodes",)
-"""Modules in these packages that are no part themselves."""
 
 
 def module_of(kind: str, name: str) -> str:
@@ -34,20 +34,21 @@ def module_of(kind: str, name: str) -> str:
 def parts(kind: str) -> list[str]:
     """The names of the parts of a kind: what there is to choose from."""
     place = SOURCE.joinpath(*PACKAGES[kind].split("."))
-    names = (path.stem for path in place.glob("[a-z]*.py"))
-    return sorted(name.replace("_", "-") for name in names if name not in BESIDE)
+    files = place.glob("[a-z]*.py")
+    if mark := MARKS.get(kind):
+        files = (path for path in files if mark in path.read_text("utf-8"))
+    names = (path.stem for path in files)
+    return sorted(name.replace("_", "-") for name in names)
+
+
+def source_of(kind: str, name: str) -> Path:
+    """The file of a part."""
+    return SOURCE.joinpath(*module_of(kind, name).split(".")).with_suffix(".py")
 
 
 def load(kind: str, name: str) -> Any:
     """The module itself."""
     return import_module(module_of(kind, name))
-
-
-def inner_learner(learner: str, hidden: tuple[int, ...]) -> str | None:
-    """The learner that a learner is made of, by name: the modules of ``gated``; None for any other."""
-    if learner != "gated":
-        return None
-    return "networks" if hidden else "table"
 
 
 def compiled_modules() -> list[str]:

@@ -6,9 +6,11 @@ from functools import cached_property
 from itertools import groupby, product
 from pathlib import Path
 
+from upswing.study.architecture import architecture_named
 from upswing.study.config import Experiment, Study
 from upswing.study.ids import RUN_FILES, cell_id, file_of
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec
+from upswing.study.spec import Spec
+from upswing.study.task import task_named
 
 
 @dataclass(frozen=True)
@@ -82,9 +84,9 @@ class Matrix:
         study, architecture = self.study, self.study.architectures[name]
         epsilon, discount = architecture.epsilon, architecture.discount
         return Spec(
-            task=NamedTask(name=task, **dict(study.tasks[task])),
-            architecture=NamedArchitecture(
-                name=name, **{**dict(architecture), "epsilon": None, "discount": None}
+            task=task_named(task, **dict(study.tasks[task])),
+            architecture=architecture_named(
+                name, **{**dict(architecture), "epsilon": None, "discount": None}
             ),
             alpha=alpha,
             seeds=tuple(sorted(seeds)),

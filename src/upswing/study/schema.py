@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from upswing.study.config import schema
+from upswing.study.json_schema import schema, sections_of_options
 from upswing.study.sweeps import Sweep
 
 HEAD = """\
@@ -23,6 +23,11 @@ message.
 (`make schema`), and a test compares them.
 """
 
+
+OPTIONS_HEAD = """\
+The learner, the coding, the method and the kind of task may have options of their own, which stand
+beside the keys above. They are declared in the file of the part, in a class `Options`.
+"""
 
 SWEEPS_HEAD = """\
 `claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
@@ -45,6 +50,8 @@ def reference() -> str:
         "Readings": "Readings, below `readings`",
     }
     sections += [_section(title, definitions[name]) for name, title in titles.items()]
+    sections.append(OPTIONS_HEAD)
+    sections += [_section(title, options) for title, options in sections_of_options()]
     sweep = Sweep.model_json_schema()
     sections.append(SWEEPS_HEAD + _section("A sweep, below `<name>` in `readings.yaml`", sweep))
     return "\n".join(sections)
@@ -61,7 +68,8 @@ def _rows(described: dict[str, Any]) -> Iterator[str]:
     required = described.get("required", [])
     for name, field in described["properties"].items():
         default = "required" if name in required else _shown(field.get("default"))
-        yield f"| `{name}` | {_values(field)} | {default} | {field.get('description', '')} |"
+        meaning = field.get("description", "").replace("|", "\\|")
+        yield f"| `{name}` | {_values(field)} | {default} | {meaning} |"
 
 
 def _values(field: dict[str, Any]) -> str:

@@ -7,34 +7,24 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationError
 
-from upswing.study.config import Architecture, Seed, Share, Strict, Task, listed, once
+from upswing.study.architecture import AnyNamedArchitecture
 from upswing.study.errors import BadInput, explained, shown
 from upswing.study.ids import cell_id, run_id
-from upswing.study.names import Alpha, Name
+from upswing.study.names import Alpha
 from upswing.study.readings import Readings
-
-
-class NamedTask(Task):
-    """A task and the name it has in the study."""
-
-    name: Name
-
-
-class NamedArchitecture(Architecture):
-    """An architecture and the name it has in the study."""
-
-    name: Name
+from upswing.study.task import AnyNamedTask
+from upswing.study.values import Discount, Seed, Share, Strict, listed, once
 
 
 class Spec(Strict):
     """One cell of the matrix, and the seeds to run it with."""
 
-    task: NamedTask
-    architecture: NamedArchitecture
+    task: AnyNamedTask
+    architecture: AnyNamedArchitecture
     alpha: Alpha | None
     seeds: Annotated[tuple[Seed, ...], BeforeValidator(listed), Field(min_length=1), once]
     epsilon: Share
-    discount: Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)]
+    discount: Discount
     readings: Readings
 
     @property
@@ -69,7 +59,7 @@ class Spec(Strict):
         content["task"] = self.task.model_dump(exclude_defaults=True)
         content["architecture"] = self.architecture.model_dump(exclude_defaults=True)
         content["readings"] = self.readings.touching(
-            self.architecture.learner, self.task.kind, self.architecture.modular
+            self.architecture.learner, self.task.kind, self.architecture.is_modular
         )
         return json.dumps(_shortest(content), sort_keys=True, separators=(",", ":"))
 
@@ -90,7 +80,7 @@ def parse(text: str) -> Spec:
         spec = Spec.model_validate(content)
     except ValidationError as error:
         raise BadInput(explained(Spec, error, lambda _: "spec")) from None
-    if (spec.alpha is None) != (spec.architecture.learner == "control"):
+    if (spec.alpha is None) != (not spec.architecture.learns):
         raise BadInput(
             [f"spec: alpha: {shown(spec.alpha)}: a control has null, a learner a number"]
         )

@@ -11,12 +11,13 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BeforeValidator, Field, RootModel, ValidationError
 
 from upswing.study.cells import check_cells
-from upswing.study.config import LARGEST_SEED, Seed, Strict, Study, listed, once
+from upswing.study.config import Study
 from upswing.study.errors import BadInput, explained, near, problem, shown
 from upswing.study.matrix import Matrix
 from upswing.study.names import CellName, Name
 from upswing.study.readings import Readings, options_of
 from upswing.study.spec import Spec
+from upswing.study.values import LARGEST_SEED, Seed, Strict, listed, once
 from upswing.study.yaml_file import read_yaml
 
 Cells = Annotated[tuple[CellName, ...], BeforeValidator(listed), once]

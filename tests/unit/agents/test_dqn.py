@@ -11,16 +11,19 @@ from torch import nn
 from tests.helpers import assert_same, run
 from upswing.agents.features import Plan, Point
 from upswing.agents.features import create as create_coding
-from upswing.agents.learners import Beginning, dqn, values
+from upswing.agents.learners import Beginning, values
 from upswing.agents.learners import create as create_learner
+from upswing.agents.replay import begin, collect, empty_replay, end, sample
 from upswing.physics import tasks
 from upswing.physics.environment import State, empty_trajectory, move
 from upswing.physics.jit import compiled
 from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.evaluation import evaluate
 from upswing.runs.simulation import prepare, streams
+from upswing.study.architecture import architecture_named, architecture_of
 from upswing.study.readings import Readings
-from upswing.study.spec import NamedArchitecture, NamedTask, Spec
+from upswing.study.spec import Spec
+from upswing.study.task import task_named
 
 KINDS = ["balancing", "full-control"]
 SEED = 1000
@@ -37,10 +40,8 @@ def spec_of(
     **readings,
 ):
     return Spec(
-        task=NamedTask(name=kind, kind=kind, steps=steps, velocity_weight=weight, shaping=shaping),
-        architecture=NamedArchitecture(
-            name="dqn", learner="dqn", coding="continuous", hidden=hidden
-        ),
+        task=task_named(kind, kind=kind, steps=steps, velocity_weight=weight, shaping=shaping),
+        architecture=architecture_named("dqn", learner="dqn", coding="continuous", hidden=hidden),
         alpha=alpha,
         seeds=(SEED,),
         epsilon=epsilon,
@@ -49,12 +50,16 @@ def spec_of(
     )
 
 
-def learner_of(hidden, lowest_q=-1000.0):
+DEFAULTS = architecture_of(learner="dqn", coding="continuous", hidden=(1,))
+
+
+def learner_of(hidden, lowest_q=-1000.0, **options):
     readings = Readings()
-    coding = create_coding("continuous", Plan("full-control", {}, readings))
+    task = tasks.create("full-control", readings)
+    coding = create_coding("continuous", Plan(task, {}, readings))
+    options = {**DEFAULTS.model_dump(), "hidden": hidden, **options}
     return create_learner(
-        "dqn",
-        Beginning(coding, {"hidden": hidden}, readings, lowest_q, np.random.default_rng(0)),
+        "dqn", Beginning(coding, options, readings, lowest_q, np.random.default_rng(0))
     )
 
 
@@ -79,13 +84,12 @@ def known_decisions(replay, count):
 
 
 @pytest.mark.parametrize("hidden", [(64, 64), (7,)])
-def test_an_update_is_that_of_the_paper(hidden, monkeypatch):
-    monkeypatch.setattr(dqn, "RENEW_EVERY", 2)
-    learner = learner_of(hidden)
+def test_an_update_is_that_of_the_paper(hidden):
+    learner = learner_of(hidden, target_update_interval=2)
     known_decisions(learner.replay, 100)
     online, target = plain(learner.network), plain(learner.network)
     optimiser = torch.optim.Adam(online.parameters(), lr=0.01, foreach=False)
-    unit = dqn.UNIT * 1000
+    unit = DEFAULTS.q_unit * 1000
     draws = np.random.default_rng(2)
     knees = set()
     for update in range(1, 6):
@@ -137,13 +141,13 @@ def test_the_compiled_network_is_torchs(hidden):
 
 
 def test_the_memory_holds_the_latest_decisions_and_no_others():
-    replay, draws = dqn.empty_replay(10), np.random.default_rng(4)
+    replay, draws = empty_replay(10), np.random.default_rng(4)
     for number in range(1, 36):
-        dqn.begin(replay, Point(0, 0.0, float(number)))
-        dqn.collect(replay, -1.0, 0.5)
-        dqn.collect(replay, -float(number), 0.5)
-        dqn.end(replay, number % 3, Point(0, 0.0, number + 0.5), number % 5 == 0)
-        rows = dqn.sample(replay, 200, draws)
+        begin(replay, Point(0, 0.0, float(number)))
+        collect(replay, -1.0, 0.5)
+        collect(replay, -float(number), 0.5)
+        end(replay, number % 3, Point(0, 0.0, number + 0.5), number % 5 == 0)
+        rows = sample(replay, 200, draws)
         numbers = np.rint(replay.states[rows, 2] * 20).astype(int)
         assert set(numbers) == set(range(max(1, number - 9), number + 1))
         np.testing.assert_array_equal(replay.actions[rows], numbers % 3)
@@ -168,7 +172,7 @@ def test_it_records_and_remembers_what_the_environment_did(kind, reset):
         action = trajectory.action[t]
         for name, value in state._asdict().items():
             assert np.float32(value) == getattr(trajectory, name)[t], (name, t)
-        if t % dqn.HOLD == 0 or trajectory.reset[t - 1]:
+        if t % DEFAULTS.action_repeat == 0 or trajectory.reset[t - 1]:
             begun, rewards, decided = state, 0.0, t
         else:
             assert action == trajectory.action[t - 1]
@@ -181,7 +185,7 @@ def test_it_records_and_remembers_what_the_environment_did(kind, reset):
         assert trajectory.reset[t] == fell
         told = -(seen.angle**2) + tasks.bonus(body, task, 0.99, *state[:2], *seen[:2])
         rewards += 0.99 ** (t - decided) * rule.reward_scale * told
-        if fell or (t + 1) % dqn.HOLD == 0:
+        if fell or (t + 1) % DEFAULTS.action_repeat == 0:
             for stored, at in ((replay.states, begun), (replay.next_states, seen)):
                 expected = [np.sin(at.angle), np.cos(at.angle), at.angular_velocity / 20]
                 assert stored[remembered] == pytest.approx(expected, abs=1e-12)
@@ -200,14 +204,14 @@ def test_it_records_and_remembers_what_the_environment_did(kind, reset):
     assert setting.starts.random() == starts.random()
     # δ stands where it learned, and nowhere else.
     steps = np.arange(1, 3_001)
-    learned = (steps % dqn.UPDATE_EVERY == 0) & (steps >= dqn.FIRST_UPDATE)
+    learned = (steps % DEFAULTS.update_interval == 0) & (steps >= DEFAULTS.learning_starts)
     np.testing.assert_array_equal(np.isfinite(trajectory.td_error), learned)
 
 
 def test_explores_by_the_one_draw_of_a_step():
     trajectory, _ = run(spec_of("full-control", epsilon=1.0, steps=400), SEED)
     draws = next(streams(SEED)).random(400)
-    expected = np.repeat(np.floor(draws[:: dqn.HOLD] * 3), dqn.HOLD)
+    expected = np.repeat(np.floor(draws[:: DEFAULTS.action_repeat] * 3), DEFAULTS.action_repeat)
     np.testing.assert_array_equal(trajectory.action, expected)
 
 

@@ -8,10 +8,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from upswing.agents.features import Place, Plan, Point, create, locate
-from upswing.agents.features.grid import tiles_for
 from upswing.agents.features.tilings import TILINGS
+from upswing.physics import tasks
 from upswing.runs.snapshots import places
-from upswing.study.config import parts
+from upswing.study.loading import parts
 from upswing.study.readings import Readings
 
 KINDS = ["balancing", "full-control"]
@@ -21,7 +21,8 @@ SPEEDS = st.floats(-40, 40)
 
 
 def coding(name, kind="full-control", **readings):
-    return create(name, Plan(kind, OPTIONS, Readings(**readings)))
+    task = tasks.create(kind, Readings(**readings))
+    return create(name, Plan(task, OPTIONS, Readings(**readings)))
 
 
 @pytest.mark.parametrize("name", [name for name in parts("codings") if name != "continuous"])
@@ -52,7 +53,10 @@ def test_the_compiled_coding_is_the_one_in_python(name, kind):
 
 @given(angle=ANGLES, speed=SPEEDS)
 def test_fine_tiles_lie_in_those_of_the_thesis(angle, speed):
-    fine, coarse = coding("fine"), tiles_for("full-control", False, Readings())
+    fine, coarse = (
+        coding("fine"),
+        coding("grid"),
+    )
     row, column = divmod(locate(fine, angle, speed).tiles[0], fine.velocity_parts)
     (tile,) = locate(coarse, angle, speed).tiles
     assert (row // 4, column // 4) == divmod(tile, 20)
@@ -88,7 +92,7 @@ def test_hashing_scatters_neighbours():
 @example(angle=-pi, speed=0.0)
 def test_the_first_tiling_is_the_grid_of_the_thesis(angle, speed):
     (first, *_) = locate(coding("tilings"), angle, speed).tiles
-    (tile,) = locate(tiles_for("full-control", False, Readings()), angle, speed).tiles
+    (tile,) = locate(coding("grid"), angle, speed).tiles
     assert divmod(first, 21) == divmod(tile, 20)
 
 
@@ -121,7 +125,10 @@ def test_states_share_more_tilings_the_nearer_they_are(angle, speed):
 
 
 def test_tilings_tell_apart_what_one_grid_cannot():
-    tilings, grid = coding("tilings"), tiles_for("full-control", False, Readings())
+    tilings, grid = (
+        coding("tilings"),
+        coding("grid"),
+    )
     speeds = np.linspace(0.01, 1.99, 200)
     assert len({locate(grid, 0.1, speed) for speed in speeds}) == 1
     assert len({locate(tilings, 0.1, speed) for speed in speeds}) == TILINGS
@@ -141,6 +148,4 @@ def test_the_state_itself_is_told_as_it_is():
 
 def test_a_picture_covers_the_grid():
     assert places(coding("tilings"))[0] != places(coding("tilings"))[-1]
-    assert places(tiles_for("full-control", False, Readings())) == [
-        Place(0, (tile,)) for tile in range(160)
-    ]
+    assert places(coding("grid")) == [Place(0, (tile,)) for tile in range(160)]

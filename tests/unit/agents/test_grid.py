@@ -7,13 +7,20 @@ from hypothesis import strategies as st
 
 from upswing.agents.features import Place, locate
 from upswing.agents.features.grid import BALANCING_MODULE, UPSWING_MODULE, Tiles, tiles_for
+from upswing.physics import tasks
 from upswing.study.readings import Readings
 
 angles = st.floats(-np.pi, np.pi, exclude_max=True)
 any_angles = st.floats(-50, 50)
 velocities = st.floats(-60, 60)
+
+
+def grid_of(kind, modular, readings):
+    return tiles_for(tasks.create(kind, readings), modular, readings)
+
+
 codings = st.builds(
-    tiles_for,
+    grid_of,
     st.sampled_from(["balancing", "full-control"]),
     st.booleans(),
     st.builds(Readings, angle_unit=st.sampled_from(["half_turn", "radians"])),
@@ -32,7 +39,7 @@ def test_every_state_has_a_tile_of_an_existing_module(tiles, angle, velocity):
     ("kind", "parts", "limit"), [("balancing", 4, np.pi / 2), ("full-control", 8, np.pi)]
 )
 def test_half_turn_tiles_are_45_degrees_by_2_radians_a_second(kind, parts, limit):
-    tiles = tiles_for(kind, False, HALF_TURN)
+    tiles = grid_of(kind, False, HALF_TURN)
     for row in range(parts):
         for column in range(20):
             low = np.array([-limit + row * np.pi / 4, -20 + 2 * column])
@@ -42,7 +49,7 @@ def test_half_turn_tiles_are_45_degrees_by_2_radians_a_second(kind, parts, limit
 
 
 def test_radians_leaves_half_of_the_balancing_tiles_unvisited():
-    tiles = tiles_for("balancing", False, RADIANS)
+    tiles = grid_of("balancing", False, RADIANS)
     rows = {
         locate(tiles, angle, 0.0).tiles[0] // 20
         for angle in np.linspace(-np.pi / 2, np.pi / 2, 99)[:-1]
@@ -52,7 +59,7 @@ def test_radians_leaves_half_of_the_balancing_tiles_unvisited():
 
 @given(any_angles)
 def test_velocities_out_of_range_have_the_edge_tile(angle):
-    tiles = tiles_for("full-control", False, HALF_TURN)
+    tiles = grid_of("full-control", False, HALF_TURN)
     assert locate(tiles, angle, 1e9) == locate(tiles, angle, 19.9)
     assert locate(tiles, angle, -1e9) == locate(tiles, angle, -20.0)
 
@@ -60,15 +67,15 @@ def test_velocities_out_of_range_have_the_edge_tile(angle):
 @given(angles, velocities)
 def test_a_fixed_control_structure_divides_at_the_horizontal(angle, velocity):
     for readings in (HALF_TURN, RADIANS):
-        module, _ = locate(tiles_for("full-control", True, readings), angle, velocity)
+        module, _ = locate(grid_of("full-control", True, readings), angle, velocity)
         above = -np.pi / 2 <= angle < np.pi / 2
         assert module == (BALANCING_MODULE if above else UPSWING_MODULE)
 
 
 def test_two_modules_are_one_grid_under_another_name():
     one, two = (
-        tiles_for("full-control", False, HALF_TURN),
-        tiles_for("full-control", True, HALF_TURN),
+        grid_of("full-control", False, HALF_TURN),
+        grid_of("full-control", True, HALF_TURN),
     )
     pairs = set()
     for angle in np.linspace(-np.pi, np.pi, 801):
@@ -80,8 +87,8 @@ def test_two_modules_are_one_grid_under_another_name():
 
 def test_a_balancing_module_has_the_tiles_of_the_balancing_task():
     alone, module = (
-        tiles_for("balancing", False, HALF_TURN),
-        tiles_for("full-control", True, HALF_TURN),
+        grid_of("balancing", False, HALF_TURN),
+        grid_of("full-control", True, HALF_TURN),
     )
     for angle in np.linspace(-np.pi / 2, np.pi / 2, 101)[:-1]:
         assert locate(alone, angle, 3.0).tiles == locate(module, angle, 3.0).tiles

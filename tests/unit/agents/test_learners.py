@@ -9,6 +9,7 @@ from upswing.agents.features import Place, Point
 from upswing.agents.features.grid import tiles_for
 from upswing.agents.learners import Beginning, create, update, values
 from upswing.agents.learners.gated import RATE
+from upswing.physics import tasks
 from upswing.runs.simulation import prepare
 from upswing.study.readings import Readings
 
@@ -18,7 +19,7 @@ BIASES = ["none", "hidden", "both"]
 def make(name, seed=0, coding=None, hidden=(), **readings):
     options = {"hidden": hidden, "halved_after": 10.0}
     chosen = Readings(**{"initial_weights": 1.0, **readings})
-    coding = coding or tiles_for("full-control", False, chosen)
+    coding = coding or tiles_for(tasks.create("full-control", chosen), False, chosen)
     weights = np.random.default_rng(seed)
     return create(name, Beginning(coding, options, chosen, -1.0, weights))
 
@@ -104,7 +105,7 @@ def test_with_alpha_1_halved_after_one_update_monte_carlo_averages_its_returns()
         "balancing", 1, 400, epsilon=1.0, learner="decaying", halved_after=1.0, method="monte-carlo"
     )
     trajectory, learned = run(spec)
-    tiles = tiles_for("balancing", False, Readings())
+    tiles = tiles_for(tasks.create("balancing", Readings()), False, Readings())
     returns = {}
     reward = 4 * trajectory.reward.astype(float)
     ends = np.flatnonzero(trajectory.reset)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from upswing.agents.features import Place
 from upswing.agents.features.grid import tiles_for
 from upswing.agents.learners import Beginning, create, update, values
+from upswing.physics import tasks
 from upswing.study.readings import Readings
 
 SIZES = [(5,), (30,), (20, 5), (1,), (2, 3)]
@@ -17,7 +18,7 @@ BIASES = ["none", "hidden", "both"]
 
 def make(hidden, biases="none", modular=False, learning_rate=0.3, scale=1.0, seed=0):
     readings = Readings(biases=biases, learning_rate=learning_rate, initial_weights=scale)
-    tiles = tiles_for("full-control", modular, readings)
+    tiles = tiles_for(tasks.create("full-control", readings), modular, readings)
     weights = np.random.default_rng(seed)
     return create("networks", Beginning(tiles, {"hidden": hidden}, readings, -1.0, weights)), tiles
 

@@ -29,9 +29,9 @@ from upswing.physics import pendulum
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACCELERATIONS, HORIZONTAL
-from upswing.physics.tasks.episodes import STARTS
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.simulation import streams
+from upswing.study.task import kind_of_task
 
 BODY = Pendulum()
 TINY, SMALL, MIDDLE, FINE = Grid(36, 21), Grid(72, 81), Grid(144, 161), Grid(288, 321)
@@ -323,7 +323,7 @@ def test_a_score_against_a_plain_transcription(kind):
     visits = np.zeros(len(actions), dtype=np.int64)
     first, second = score(kind, BODY, actions, visits)
     seen, upright, rewards, lasted = np.zeros_like(visits), 0, 0.0, []
-    for start in STARTS[kind]:
+    for start in kind_of_task(kind).greedy_starts:
         angle, velocity = float(start), 0.0
         for t in range(4_000):
             tile = locate(thesis_tiles(kind), angle, velocity).tiles[0]

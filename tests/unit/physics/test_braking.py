@@ -68,7 +68,7 @@ def test_arrivals_are_counted_with_their_speed_at_the_horizontal():
     trajectory = empty_trajectory(6)
     trajectory.angle[:] = np.radians([100, 80, 95, 85, 170, -30])
     trajectory.angular_velocity[:] = [-20, -10, 1, -4, 0, 0]
-    found = measures.measure(trajectory, "full-control", too_fast=12.0)
+    found = measures.measure(trajectory, False, too_fast=12.0)
     # half way from 100° to 80°: 15 rad/s; half way from 95° to 85°: 1.5; from 170° at rest: 0
     assert found.swing_ups == 3
     assert found.arrival_speed == pytest.approx((15 + 1.5 + 0) / 3, rel=1e-5)
@@ -79,7 +79,7 @@ def test_only_what_comes_up_to_20_degrees_has_recovered():
     degrees = [0, 100, 170, 80, 120, 60, 10, 5, 100, 10, -5, 95]
     trajectory = empty_trajectory(len(degrees) * 5)
     trajectory.angle[:] = np.radians([0] * (len(degrees) * 4) + degrees)
-    found = measures.measure(trajectory, "full-control", 12.0)
+    found = measures.measure(trajectory, False, 12.0)
     # Below four times: after the first it passes the horizontal only, after the second and the third
     # it comes up, and the fourth is where the run ends.
     assert found.recovered_share == pytest.approx(2 / 4)
@@ -87,7 +87,7 @@ def test_only_what_comes_up_to_20_degrees_has_recovered():
 
 def test_a_run_without_arrivals_has_no_speed():
     trajectory, _ = run(make_spec("balancing", "table", steps=2_000))
-    found = measures.measure(trajectory, "balancing", 15.0)
+    found = measures.measure(trajectory, True, 15.0)
     assert found.swing_ups == 0
     assert found.arrival_speed is None
     assert found.too_fast_share is None

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.paths import ROOT
-from upswing.study.config import from_snakemake, load, schema, validated
+from upswing.study.config import from_snakemake, load, validated
 from upswing.study.errors import BadInput
+from upswing.study.json_schema import schema
 from upswing.study.matrix import Matrix
 from upswing.study.names import alpha_text
 from upswing.study.readings import Readings
@@ -62,7 +63,7 @@ BAD = {
     "unknown rate": (put("readings", "learning_rate", 0.2), "readings.learning_rate: 0.2: must be one of 0.03, 0.1, 0.3, 0.5, 1"),
     "network of size 0": (put("architectures", "networks-5", "hidden", [0]), "architectures.networks-5.hidden[0]: 0: "),
     "three layers": (put("architectures", "networks-5", "hidden", [1, 2, 3]), "architectures.networks-5.hidden"),
-    "network without size": (put("architectures", "networks-5", "hidden", []), "goes with `learner: networks`"),
+    "network without size": (put("architectures", "networks-5", "hidden", []), "architectures.networks-5.hidden: []: must have at least 1"),
     "duplicate cell": (put("experiments", 1, "tasks", ["balancing"]), "balancing/table/alpha-1\": duplicate cell: experiments[0]"),
     "steps 0": (put("tasks", "balancing", "steps", 0), "tasks.balancing.steps: 0: "),
     "steps as truth": (put("tasks", "balancing", "steps", True), "tasks.balancing.steps: true: "),

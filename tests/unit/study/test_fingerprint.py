@@ -9,16 +9,17 @@ import pytest
 
 from tests.paths import ROOT
 from upswing.study import jobs
-from upswing.study.config import Architecture
+from upswing.study.architecture import architecture_of
 from upswing.study.fingerprint import fingerprint, reachable
 
-TABLES, NETS = Architecture(learner="table"), Architecture(learner="networks", hidden=(5,))
+TABLES = architecture_of(learner="table")
+NETS = architecture_of(learner="networks", hidden=(5,))
 SOURCE = ROOT / "src"
 ASK = """
-from upswing.study.config import Architecture
+from upswing.study.architecture import architecture_of
 from upswing.study import jobs
-print(*(jobs.training(Architecture(learner=name, hidden=hidden), "balancing").fingerprint
-        for name, hidden in (("table", ()), ("networks", (5,)))), jobs.figure("fig05").fingerprint,
+print(*(jobs.training(architecture_of(learner=name, **options), "balancing").fingerprint
+        for name, options in (("table", {}), ("networks", {"hidden": (5,)}))), jobs.figure("fig05").fingerprint,
       jobs.page(["fig05"]).fingerprint)
 """
 TABLE, NETWORKS, FIGURE, REPORT = range(4)

@@ -13,6 +13,9 @@ from collections.abc import Mapping
 from math import nan
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from upswing.agents.features import Coding
 from upswing.agents.policy import Q, Rule
 from upswing.physics.jit import ByType
 from upswing.study.loading import load
@@ -74,10 +77,11 @@ Q_LEARNING = "q-learning"
 class Design(NamedTuple):
     """What a method is made from."""
 
-    modules: int
+    coding: Coding  # the feature encoder: how many tiles and modules there are
     discount: float  # γ
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
+    draws: np.random.Generator  # the algorithm's own stream of random numbers
 
 
 def create(name: str, design: Design) -> NamedTuple:

@@ -9,14 +9,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from upswing.agents.algorithms import Design, Step, learn_from_of
 from upswing.agents.features import locate
 from upswing.agents.learners import Array, update, values
 from upswing.agents.policy import Rule
+from upswing.study import architecture
+from upswing.study.values import Share
 
 FORGOTTEN = 1e-6
 """The smallest trace that is kept."""
+
+
+class Options(architecture.Architecture):
+    """How long a visit is remembered."""
+
+    trace: Share = Field(description="The λ by which a trace decays, beside γ.")
 
 
 class QLambda(NamedTuple):

@@ -72,7 +72,7 @@ def _before_choice(
 
 def create(design: Design) -> QLearning:
     """Q-learning with no update left open."""
-    step, action = (np.full(design.modules, NOTHING_OPEN, dtype=np.int64) for _ in range(2))
-    angle, angular_velocity, reward = (np.zeros(design.modules) for _ in range(3))
+    step, action = (np.full(design.coding.modules, NOTHING_OPEN, dtype=np.int64) for _ in range(2))
+    angle, angular_velocity, reward = (np.zeros(design.coding.modules) for _ in range(3))
     hand_over = HAND_OVERS[design.readings.hand_over]
     return QLearning(hand_over, step, angle, angular_velocity, action, reward)

@@ -1,14 +1,16 @@
 """Codings: what of a state (φ, φ̇) a learner is told (§3.3).
 
 A coding is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
-``locate``, which answers with a place, and has a function ``create`` that makes one for a run. Codings
-are imported by name, as learners are.
+``locate``, which answers with a place, and has a function ``create`` that makes one for a run; options
+of its own, and what it gives a learner, stand there in a class ``Options``. Codings are imported by
+name, as learners are.
 """
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple, Protocol
 
 from upswing.physics.jit import ByType
+from upswing.physics.tasks import Task
 from upswing.study.loading import load
 from upswing.study.readings import Readings
 
@@ -62,7 +64,7 @@ locate_in = _locate_by_type.register
 class Plan(NamedTuple):
     """What a coding is made from."""
 
-    kind: str  # of the task
+    task: Task
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
 

@@ -1,12 +1,19 @@
 """The state itself, without tiles: sine and cosine of φ, and φ̇ (§3.3 asks what else there is)."""
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from upswing.agents.features import Plan, Point, locate_in
 from upswing.agents.features.grid import tiles_for
+from upswing.study import architecture
 
 PICTURE = (40, 40)
 """Parts of φ and of φ̇ of a picture of what was learned."""
+
+
+class Options(architecture.Architecture):
+    """There are no tiles."""
+
+    gives: ClassVar[architecture.Features] = "state"
 
 
 class Continuous(NamedTuple):
@@ -36,5 +43,5 @@ def _locate(continuous: Continuous, angle: float, angular_velocity: float) -> Po
 
 
 def create(plan: Plan) -> Continuous:
-    """States of the kind of task."""
-    return Continuous(tiles_for(plan.kind, False, plan.readings).angle_limit)
+    """States of the task."""
+    return Continuous(tiles_for(plan.task, False, plan.readings).angle_limit)

@@ -1,9 +1,20 @@
 """The grid of the thesis, every tile of it cut into finer ones (C9: is it too coarse?)."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from pydantic import Field
 
 from upswing.agents.features import Place, Plan, locate_in
 from upswing.agents.features.grid import VELOCITY_LIMIT, VELOCITY_PARTS, part, tiles_for
+from upswing.study import architecture
+
+
+class Options(architecture.Architecture):
+    """How fine."""
+
+    cuts: Annotated[int, Field(ge=2, le=32)] = Field(
+        description="Each tile of the thesis is cut into cuts × cuts."
+    )
 
 
 class Fine(NamedTuple):
@@ -38,5 +49,5 @@ def _locate(fine: Fine, angle: float, angular_velocity: float) -> Place:
 
 def create(plan: Plan) -> Fine:
     """The thesis's grid for the kind of task, each tile cut into ``cuts`` × ``cuts``."""
-    coarse, cuts = tiles_for(plan.kind, False, plan.readings), plan.options["cuts"]
+    coarse, cuts = tiles_for(plan.task, False, plan.readings), plan.options["cuts"]
     return Fine(coarse.angle_parts * cuts, coarse.angle_limit, VELOCITY_PARTS * cuts)

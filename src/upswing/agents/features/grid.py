@@ -7,9 +7,12 @@ state, and the tile inside that module.
 from math import floor, pi
 from typing import NamedTuple
 
+from pydantic import Field
+
 from upswing.agents.features import Place, Plan, locate_in
 from upswing.physics.jit import compiled
-from upswing.physics.tasks import HORIZONTAL
+from upswing.physics.tasks import HORIZONTAL, Task
+from upswing.study import architecture
 from upswing.study.readings import Readings
 
 VELOCITY_PARTS = 20
@@ -18,6 +21,14 @@ VELOCITY_LIMIT = 20.0
 
 BALANCING_MODULE = 0
 UPSWING_MODULE = 1
+
+
+class Options(architecture.Architecture):
+    """The grid may be shared by two modules."""
+
+    modular: bool = Field(
+        default=False, description="One learner above the horizontal and one below (§4.6.3)."
+    )
 
 
 class Tiles(NamedTuple):
@@ -46,17 +57,17 @@ class Tiles(NamedTuple):
 
 def create(plan: Plan) -> Tiles:
     """The grid of the thesis."""
-    return tiles_for(plan.kind, bool(plan.options["modular"]), plan.readings)
+    return tiles_for(plan.task, bool(plan.options["modular"]), plan.readings)
 
 
-def tiles_for(kind: str, modular: bool, readings: Readings) -> Tiles:
+def tiles_for(task: Task, modular: bool, readings: Readings) -> Tiles:
     """The grid of a task: 4 parts over ±π when balancing, 8 over ±2π for full control (§4.5.1, §4.6.1).
 
     The thesis's π is 90° under R2 `half_turn` and π rad under `radians`. Two modules share the grid
     of full control: each has half of its angles, 4 parts (§4.6.3).
     """
     half_turn = HORIZONTAL if readings.angle_unit == "half_turn" else pi
-    whole_circle = modular or kind != "balancing"
+    whole_circle = modular or task.largest_angle > HORIZONTAL
     parts, limit = (8, 2 * half_turn) if whole_circle else (4, half_turn)
     return Tiles(parts, limit, round(HORIZONTAL / (2 * limit / parts)), modular)
 

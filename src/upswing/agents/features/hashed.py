@@ -1,10 +1,24 @@
 """Hashed tiles: many fine ones, scattered over few entries (§3.3; Sutton and Barto 1998, p. 207)."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from pydantic import Field
 
 from upswing.agents.features import Place, Plan, fine, locate_in
 from upswing.agents.features.fine import Fine
 from upswing.agents.features.grid import VELOCITY_LIMIT, part
+from upswing.study import architecture
+
+
+class Options(architecture.Architecture):
+    """How fine, and over how many entries."""
+
+    cuts: Annotated[int, Field(ge=2, le=32)] = Field(
+        description="Each tile of the thesis is cut into cuts × cuts."
+    )
+    entries: Annotated[int, Field(ge=1, le=1_000_000)] = Field(
+        description="Number of entries that the tiles are scattered over."
+    )
 
 
 class Hashed(NamedTuple):

@@ -5,17 +5,24 @@ states that share all tiles of the thesis are told apart.
 """
 
 from math import floor
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from upswing.agents.features import Place, Plan, locate_in
 from upswing.agents.features.grid import VELOCITY_LIMIT, VELOCITY_PARTS, tiles_for
 from upswing.physics.jit import compiled
+from upswing.study import architecture
 
 TILINGS = 8
 SHIFTS = (1, 3)
 """By so many eighths of a tile, of φ and of φ̇, the next tiling is shifted: the first odd numbers."""
+
+
+class Options(architecture.Architecture):
+    """Tiles overlap."""
+
+    gives: ClassVar[architecture.Features] = "tiles"
 
 
 class Tilings(NamedTuple):
@@ -78,7 +85,6 @@ def _locate(tilings: Tilings, angle: float, angular_velocity: float) -> Place:
 
 def create(plan: Plan) -> Tilings:
     """Tilings of the task's own grid."""
-    grid = tiles_for(plan.kind, False, plan.readings)
-    whole_circle = plan.kind != "balancing" and plan.readings.wrap == "wrapped"
-    comes_round = whole_circle and plan.readings.angle_unit == "half_turn"
+    grid = tiles_for(plan.task, False, plan.readings)
+    comes_round = plan.task.wraps and plan.readings.angle_unit == "half_turn"
     return Tilings(grid.angle_parts, grid.angle_limit, comes_round)

@@ -2,8 +2,9 @@
 
 A learner is a named tuple of arrays with a leading axis for modules (1 when there are none), so
 that the loop can step it in place. Its file gives a body to the two functions below, and has a
-function ``create`` that makes one for a run; the loop needs to know no more. Learners are imported
-by name, so that a table never waits for torch.
+function ``create`` that makes one for a run; the loop needs to know no more. Options of its own, and
+which features it takes, stand there in a class ``Options``. Learners are imported by name, so that a
+table never waits for torch.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,11 +1,12 @@
 """Q as one network for all actions, with the action among its inputs (§3.3)."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from pydantic import Field
 from torch import Tensor, nn
 
 from upswing.agents.features import Place
@@ -14,6 +15,17 @@ from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.policy import Q
 from upswing.physics.jit import inlined
 from upswing.physics.tasks import ACTIONS
+from upswing.study import architecture
+from upswing.study.values import LayerSizes
+
+
+class Options(architecture.Architecture):
+    """The size of the network."""
+
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("tile",)
+    hidden: Annotated[LayerSizes, Field(max_length=1)] = Field(
+        min_length=1, description="Number of units of the one hidden layer."
+    )
 
 
 class QNetwork(nn.Module):

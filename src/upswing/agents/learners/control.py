@@ -1,14 +1,30 @@
 """The two controls: no learning, always the same way of acting (C7)."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.policy import Q
 from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.study import architecture
+
+
+class Options(architecture.Architecture):
+    """What it does."""
+
+    learns: ClassVar[bool] = False
+    behaviour: Literal["idle", "random"] = Field(
+        description="What a control does: always 0, or any action."
+    )
+
+    def check(self) -> None:
+        """Nothing is learned, by one or by two."""
+        if self.is_modular:
+            raise ValueError("a control has nothing to divide into modules")
 
 
 class Control(NamedTuple):

@@ -6,15 +6,25 @@ all its targets.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from upswing.agents.features import Place
 from upswing.agents.learners import Array, Beginning, update, update_of, values, values_of
 from upswing.agents.learners.table import Table, TableLearner, first_table
 from upswing.agents.policy import Q
+from upswing.study import architecture
+from upswing.study.values import Positive
+
+
+class Options(architecture.Architecture):
+    """How fast the step sizes decay."""
+
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("tile", "tiles")
+    halved_after: Positive = Field(description="Number of updates of an entry that halve its α.")
 
 
 class Decaying(NamedTuple):

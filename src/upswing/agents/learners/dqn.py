@@ -4,9 +4,10 @@ One network of rectified linear units for all actions, learning by Adam from min
 replay memory, towards a copy of itself that is renewed now and then. torch owns it and learns; the
 compiled part acts with the same memory, and records what the loop of ``loop.py`` would.
 
-It decides every ``HOLD`` steps and after a fall, and learns from decisions; the environment knows
-nothing of that. A decision is held for k ≤ ``HOLD`` steps (fewer around a fall), and so its target is
-r₁ + γ r₂ + … + γᵏ⁻¹ rₖ + γᵏ max Q(s′, a′): Q-learning of a semi-Markov problem, with the study's γ.
+It decides every ``action_repeat`` steps and after a fall, and learns from decisions; the environment
+knows nothing of that. A decision is held for k ≤ ``action_repeat`` steps (fewer around a fall), and so
+its target is r₁ + γ r₂ + … + γᵏ⁻¹ rₖ + γᵏ max Q(s′, a′): Q-learning of a semi-Markov problem, with the
+study's γ.
 
 A run is the same again on the same machine; torch's sums may differ from processor to processor.
 """
@@ -15,44 +16,68 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from itertools import pairwise
 from math import nan, sqrt
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from pydantic import Field
 from torch import Tensor, nn
 
 from upswing.agents.features import Point
 from upswing.agents.learners import Array, Beginning, values, values_of
 from upswing.agents.learners.backpropagation.dense import INPUTS, inputs
 from upswing.agents.policy import Q, Rule, epsilon_greedy
+from upswing.agents.replay import Replay, begin, collect, empty_replay, end, sample
 from upswing.physics.environment import State, record, transition
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACTIONS, Task
+from upswing.study import architecture
+from upswing.study.values import Count, LayerSizes, Positive, Steps
 
-HOLD = 4
-"""Steps that a decision is held: 20 ms. With 1 a run swung up too, yet in the end only from 10 of 16
-starts without exploring."""
 
-CAPACITY = 50_000
-"""Decisions that are remembered: those of 200,000 steps, so that none of such a run is forgotten."""
+class Options(architecture.Architecture):
+    """The size of the network, and how it learns."""
 
-BATCH = 64
-"""Decisions that are learned from at once."""
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("state",)
+    hidden: LayerSizes = Field(
+        min_length=1, description="Numbers of units of its hidden layers, input side first."
+    )
+    # With 1 a run swung up too, yet in the end only from 10 of 16 starts without exploring.
+    action_repeat: Count = Field(
+        default=4, description="Number of steps that an action is held; 4 are 20 ms."
+    )
+    # That is all of a run of 200,000 steps, so that nothing of such a run is forgotten.
+    replay_capacity: Count = Field(
+        default=50_000, description="Largest number of decisions that are remembered."
+    )
+    batch_size: Count = Field(
+        default=64, description="Number of decisions that are learned from at once."
+    )
+    # A minibatch is then more than one swing.
+    learning_starts: Steps = Field(
+        default=1_000, description="Number of steps before the first update."
+    )
+    # With 16 a run takes half the time; one of three then never swung up.
+    update_interval: Count = Field(
+        default=8, description="Number of steps from one update to the next."
+    )
+    target_update_interval: Count = Field(
+        default=250,
+        description="Number of updates between two renewals of the target network; 250 are 10 s.",
+    )
+    # With 0.01 three of three runs took longer to solve full control.
+    q_unit: Positive = Field(
+        default=0.03,
+        description="The network's own unit of Q, as a share of the largest |Q| there can be: it says "
+        "which errors the Huber loss takes for small.",
+    )
 
-FIRST_UPDATE = 1_000
-"""Steps before the first update, that a minibatch be more than one swing."""
-
-UPDATE_EVERY = 8
-"""Steps between two updates. With 16 a run takes half the time; one of three then never swung up."""
-
-RENEW_EVERY = 250
-"""Updates between two renewals of the target network: 10 s of the pendulum."""
-
-UNIT = 0.03
-"""The network's own unit of Q, as a share of the largest |Q| there can be: it says which errors the
-Huber loss takes for small. With 0.01 three of three runs took longer to solve full control."""
+    def check(self) -> None:
+        """It has an algorithm of its own."""
+        if self.method != "q-learning":
+            raise ValueError("a dqn has its own method; leave `method` out")
 
 
 class QNetwork(nn.Module):
@@ -80,19 +105,8 @@ class DeepQ(NamedTuple):
     weights: tuple[Array, ...]  # (inputs, outputs) of each layer
     biases: tuple[Array, ...]  # (outputs,)
     unit: float
+    action_repeat: int  # number of steps that a decision is held
     signals: Array  # (layers + 1, widest)
-
-
-class Replay(NamedTuple):
-    """Decisions, the latest over the oldest; and in ``open`` the one that is still going on."""
-
-    states: Array  # inputs of s: (capacity, INPUTS)
-    actions: NDArray[np.int64]  # a
-    rewards: Array  # r₁ + γ r₂ + …, in R3's unit
-    next_states: Array  # inputs of s′: (capacity, INPUTS)
-    discounts: Array  # γᵏ; 0 where nothing follows
-    stored: NDArray[np.int64]  # (1,): how many there have been
-    open: Array  # inputs of s, rewards so far, γᵏ so far: (INPUTS + 2,)
 
 
 @values_of(DeepQ)
@@ -114,55 +128,6 @@ def _values(net: DeepQ, point: Point) -> Q:
 
 
 @compiled
-def begin(replay: Replay, point: Point) -> None:
-    """A decision is taken at ``point``."""
-    now = replay.open
-    now[0], now[1], now[2] = inputs(point)
-    now[INPUTS], now[INPUTS + 1] = 0.0, 1.0
-
-
-@compiled
-def collect(replay: Replay, amount: float, discount: float) -> None:
-    """One step of the decision is over: r in R3's unit, and γ."""
-    now = replay.open
-    now[INPUTS] += now[INPUTS + 1] * amount
-    now[INPUTS + 1] *= discount
-
-
-@compiled
-def end(replay: Replay, action: int, point: Point, terminal: bool) -> None:
-    """The decision for ``action`` led to ``point``: remember it."""
-    row = replay.stored[0] % replay.actions.shape[0]
-    for i in range(INPUTS):
-        replay.states[row, i] = replay.open[i]
-    replay.actions[row] = action
-    replay.rewards[row] = replay.open[INPUTS]
-    after = replay.next_states[row]
-    after[0], after[1], after[2] = inputs(point)
-    replay.discounts[row] = 0.0 if terminal else replay.open[INPUTS + 1]
-    replay.stored[0] += 1
-
-
-def empty_replay(capacity: int) -> Replay:
-    """Room for ``capacity`` decisions."""
-    return Replay(
-        states=np.zeros((capacity, INPUTS)),
-        actions=np.zeros(capacity, dtype=np.int64),
-        rewards=np.zeros(capacity),
-        next_states=np.zeros((capacity, INPUTS)),
-        discounts=np.zeros(capacity),
-        stored=np.zeros(1, dtype=np.int64),
-        open=np.zeros(INPUTS + 2),
-    )
-
-
-def sample(replay: Replay, size: int, draws: np.random.Generator) -> NDArray[np.int64]:
-    """Rows of ``size`` decisions that are remembered, each drawn by itself."""
-    remembered = min(int(replay.stored[0]), len(replay.actions))
-    return draws.integers(remembered, size=size)
-
-
-@compiled
 def act(
     body: Pendulum, task: Task, net: DeepQ, rule: Rule, replay: Replay, state: State,
     actions: np.random.Generator, starts: np.random.Generator, trajectory: Any,
@@ -175,7 +140,7 @@ def act(
     remembers = rule.step_size > 0.0
     for t in range(first, last):
         draw = actions.random()
-        if t % HOLD == 0 or trajectory.reset[t - 1]:
+        if t % net.action_repeat == 0 or trajectory.reset[t - 1]:
             point = Point(0, state.angle, state.angular_velocity)
             action = epsilon_greedy(values(net, point), rule.epsilon, rule.random_ties, draw)
             if remembers:
@@ -186,7 +151,7 @@ def act(
         taken = transition(body, task, rule.discount, state, action, starts)
         if remembers:
             collect(replay, rule.reward_scale * taken.told, rule.discount)
-            if taken.fell or (t + 1) % HOLD == 0:
+            if taken.fell or (t + 1) % net.action_repeat == 0:
                 seen = Point(0, taken.seen.angle, taken.seen.angular_velocity)
                 end(replay, action, seen, taken.terminal)
         record(trajectory, t, state, action, taken, nan)
@@ -199,16 +164,23 @@ class DqnLearner:
 
     epsilon = None
 
-    def __init__(self, network: QNetwork, draws: np.random.Generator) -> None:
+    def __init__(
+        self, network: QNetwork, draws: np.random.Generator, options: Mapping[str, Any]
+    ) -> None:
         torch.set_num_threads(1)  # its matrices are small
         self.network, self.target, self.draws = network, deepcopy(network), draws
-        self.replay = empty_replay(CAPACITY)
+        self.replay = empty_replay(options["replay_capacity"])
         self.optimiser = torch.optim.Adam(network.parameters(), fused=True)
+        self.batch_size = int(options["batch_size"])
+        self.learning_starts = int(options["learning_starts"])
+        self.update_interval = int(options["update_interval"])
+        self.target_update_interval = int(options["target_update_interval"])
         self.steps = self.updates = 0
         self.stepped = DeepQ(
             tuple(parameter.detach().numpy() for parameter in network.weights),
             tuple(parameter.detach().numpy() for parameter in network.biases),
             float(network.unit),
+            int(options["action_repeat"]),
             np.zeros((len(network.weights) + 1, max(max(w.shape) for w in network.weights))),
         )
 
@@ -234,15 +206,17 @@ class DqnLearner:
         a step size of 0 it only acts. A piece goes on with the action of ``trajectory`` before it.
         """
         learns = rule.step_size > 0.0
-        pauses = range(first + UPDATE_EVERY - self.steps % UPDATE_EVERY, last, UPDATE_EVERY)
+        every = self.update_interval
+        pauses = range(first + every - self.steps % every, last, every)
         for to in (*pauses, last) if learns else (last,):
             state = act(
                 body, task, stepped, rule, self.replay, state, actions, starts, trajectory, first, to
             )  # fmt: skip
             if learns and to > first:
                 self.steps += to - first
-                if self.steps % UPDATE_EVERY == 0 and self.steps >= FIRST_UPDATE:
-                    errors = self.update(sample(self.replay, BATCH, self.draws), rule.step_size)
+                if self.steps % every == 0 and self.steps >= self.learning_starts:
+                    rows = sample(self.replay, self.batch_size, self.draws)
+                    errors = self.update(rows, rule.step_size)
                     trajectory.td_error[to - 1] = errors[0] / rule.reward_scale
             first = to
         return state
@@ -263,7 +237,7 @@ class DqnLearner:
         nn.functional.smooth_l1_loss(q, wanted).backward()  # type: ignore[no-untyped-call]
         self.optimiser.step()
         self.updates += 1
-        if self.updates % RENEW_EVERY == 0:
+        if self.updates % self.target_update_interval == 0:
             self.target.load_state_dict(self.network.state_dict())
         return np.asarray((unit * (wanted - q.detach())).numpy())
 
@@ -271,10 +245,10 @@ class DqnLearner:
 def create(beginning: Beginning) -> DqnLearner:
     """A network with weights and biases uniform in ± 1/√inputs, as is usual for these units."""
     sizes = (INPUTS, *beginning.options["hidden"], ACTIONS)
-    network = QNetwork(sizes, -UNIT * beginning.lowest_q)
+    network = QNetwork(sizes, -beginning.options["q_unit"] * beginning.lowest_q)
     with torch.no_grad():
         for weights, bias in zip(network.weights, network.biases, strict=True):
             for parameter in (weights, bias):
                 draws = beginning.weights.uniform(-1, 1, tuple(parameter.shape))
                 parameter.copy_(torch.from_numpy(draws / sqrt(weights.shape[0])))
-    return DqnLearner(network, beginning.weights)
+    return DqnLearner(network, beginning.weights, beginning.options)

@@ -7,16 +7,38 @@ zero for both, which is optimistic, and so tries both everywhere.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from upswing.agents.features import Place
 from upswing.agents.learners import Array, Beginning, Learner, update, update_of, values, values_of
 from upswing.agents.policy import Q
 from upswing.physics.jit import inlined
-from upswing.study.loading import inner_learner, load
+from upswing.study import architecture
+from upswing.study.loading import load
+from upswing.study.values import LayerSizes
+
+
+class Options(architecture.Architecture):
+    """What the two modules are."""
+
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("tile",)
+    hidden: LayerSizes = Field(
+        default=(), description="Numbers of units of the modules' hidden layers; none for tables."
+    )
+
+    @staticmethod
+    def module(hidden: tuple[int, ...]) -> str:
+        """The learner that each module is, by name."""
+        return "networks" if hidden else "table"
+
+    def inner_learners(self) -> tuple[str, ...]:
+        """The learner of the modules."""
+        return (type(self).module(self.hidden),)
+
 
 MODULES = 2
 RATE = 0.1
@@ -87,8 +109,7 @@ class GatedLearner:
 
 def create(beginning: Beginning) -> GatedLearner:
     """Two modules: networks with ``hidden`` layers, or tables where there are none."""
-    name = inner_learner("gated", beginning.options["hidden"])
-    assert name is not None, "gated has an inner learner"  # noqa: S101
+    name = Options.module(beginning.options["hidden"])
     tiles = beginning.coding.tiles
     modules = beginning._replace(coding=TwoModules(tiles))  # type: ignore[arg-type]
     inner = load("learners", name).create(modules)

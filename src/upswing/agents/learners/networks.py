@@ -6,11 +6,12 @@ steps the same memory in place, one sample at a time.
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from pydantic import Field
 from torch import Tensor, nn
 
 from upswing.agents.learners import Array, Beginning
@@ -18,6 +19,23 @@ from upswing.agents.learners.backpropagation.dense import INPUTS, dense, inputs
 from upswing.agents.learners.backpropagation.one_hidden import one_hidden
 from upswing.agents.learners.backpropagation.two_hidden import two_hidden
 from upswing.physics.tasks import ACTIONS
+from upswing.study import architecture
+from upswing.study.values import LayerSizes
+
+
+class Options(architecture.Architecture):
+    """The shape of a network."""
+
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("tile", "state")
+    hidden: LayerSizes = Field(
+        min_length=1,
+        description="Numbers of units of one or two hidden layers, input side first.",
+    )
+
+    def check(self) -> None:
+        """There is one hidden layer where the state itself goes in."""
+        if self.gives == "state" and len(self.hidden) > 1:
+            raise ValueError("`hidden` has one size here: there is one hidden layer")
 
 
 class QNetworks(nn.Module):

@@ -1,7 +1,7 @@
 """Q as a table: one entry for each module, tile and action (§3.1)."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,13 @@ from upswing.agents.features import Place
 from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.policy import Q
 from upswing.physics.tasks import ACTIONS
+from upswing.study import architecture
+
+
+class Options(architecture.Architecture):
+    """Where tiles overlap, Q is the sum of their entries."""
+
+    takes: ClassVar[tuple[architecture.Features, ...]] = ("tile", "tiles")
 
 
 class Table(NamedTuple):

@@ -76,7 +76,7 @@ def sweep_of(claim: Claim, sweeps: Mapping[str, Sweep], study: Study) -> str | N
             continue
         spec = next(s for s in specs(sweep, study, {}) if s.cell == claim.cell)
         touching = study.readings.touching(
-            spec.architecture.learner, spec.task.kind, spec.architecture.modular
+            spec.architecture.learner, spec.task.kind, spec.architecture.is_modular
         )
         if (count := len(set(touching) & set(sweep.vary))) > most:
             best, most = name, count

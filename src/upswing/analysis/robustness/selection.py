@@ -15,6 +15,7 @@ import pandas as pd
 from upswing.runs.success import succeeds
 from upswing.study.ids import CellId
 from upswing.study.sweeps import CELLS_OF_SELECTION, SELECTION
+from upswing.study.task import kind_of_task
 
 SWEEP, CELLS = SELECTION, CELLS_OF_SELECTION
 
@@ -34,7 +35,7 @@ def select(runs: pd.DataFrame) -> pd.DataFrame:
     for readings, of in runs.groupby("readings", sort=False):
         row = dict(json.loads(str(readings)))
         for name, cell in CELLS.items():
-            own = succeeds(of[of["cell"] == cell], CellId.parse(cell).task)
+            own = succeeds(of[of["cell"] == cell], kind_of_task(CellId.parse(cell).task))
             row[f"{name}_successes"] = int(own.sum())
             row["runs"] = len(own)
             row[name] = (own.sum() + 1) / (len(own) + 2)

@@ -1,11 +1,13 @@
 """Tasks: where a run starts, when it is reset, what is rewarded (§4.3–4.6).
 
-A task is a file of this folder with a function ``create`` that makes one under a reading. Tasks are
-imported by name, as learners are.
+A task is a file of this folder with a function ``create`` that makes one under a reading. How its runs
+are judged, ordered, tried out and drawn, and options of its own, stand there in a class ``Options``
+(``study/task.py`` says what holds without it). Tasks are imported by name, as learners are.
 """
 
+from collections.abc import Mapping
 from math import pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,7 +31,7 @@ RESETS = {"fallen": RESET_FALLEN, "terminal": RESET_TERMINAL, "reset": RESET_STA
 class Task(NamedTuple):
     """A task under a reading."""
 
-    start_angle: float  # a run starts uniformly in ± this [rad]
+    start_angle: float  # a run starts uniformly in ± this [rad] around ``start_middle``
     start_velocity: float  # … and at an angular velocity uniform in ± this [rad/s] (R8)
     critical_angle: float  # a run is reset when |φ| passes this [rad]; infinite: never
     largest_angle: float  # the largest |φ| that is seen [rad], for a pessimistic first Q (R5)
@@ -38,6 +40,7 @@ class Task(NamedTuple):
     reset: int  # what s′ of a fall is (R7)
     velocity_weight: float = 0.0  # beyond the thesis: −w·φ̇² is added to the reward [s²]
     shaping: float = 0.0  # beyond the thesis: the height of the potential of energy [rad²]
+    start_middle: float = 0.0  # the middle of the starts [rad]: π to start hanging
 
 
 RANDOM_START_VELOCITY = 2.0
@@ -49,16 +52,29 @@ def start_velocity(readings: Readings) -> float:
     return RANDOM_START_VELOCITY if readings.start_velocity == "random" else 0.0
 
 
-def create(kind: str, readings: Readings) -> Task:
-    """A task, by the name of its file in this folder."""
-    task: Task = load("tasks", kind).create(readings)
-    return task
+class Plan(NamedTuple):
+    """What a task is made from."""
+
+    readings: Readings
+    options: Mapping[str, Any]  # as in the configuration; empty where there is none
+
+
+def create(kind: str, readings: Readings, options: Mapping[str, Any] | None = None) -> Task:
+    """A task, by the name of its file in this folder; ``options`` as in the configuration."""
+    given = options or {}
+    task: Task = load("tasks", kind).create(Plan(readings, given))
+    return task._replace(
+        velocity_weight=float(given.get("velocity_weight", 0.0)),
+        shaping=float(given.get("shaping", 0.0)),
+    )
 
 
 @compiled
 def start(task: Task, starts: np.random.Generator) -> tuple[float, float]:
     """A start state φ [rad], φ̇ [rad/s]: two draws, whatever the task, so that runs stay paired."""
-    angle = task.start_angle * (2.0 * starts.random() - 1.0)
+    angle = task.start_middle + task.start_angle * (2.0 * starts.random() - 1.0)
+    if task.wraps:
+        angle = wrapped(angle)
     angular_velocity = task.start_velocity * (2.0 * starts.random() - 1.0)
     return angle, angular_velocity
 

@@ -2,12 +2,12 @@
 
 from math import inf, pi
 
-from upswing.physics.tasks import RESETS, Task, start_velocity
-from upswing.study.readings import Readings
+from upswing.physics.tasks import RESETS, Plan, Task, start_velocity
 
 
-def create(readings: Readings) -> Task:
+def create(plan: Plan) -> Task:
     """Start at any angle, swing up and balance."""
+    readings = plan.readings
     return Task(
         start_angle=pi,
         start_velocity=start_velocity(readings),

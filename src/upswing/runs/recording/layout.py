@@ -1,9 +1,10 @@
-"""The views that a recording opens with, made once for each kind of task."""
+"""The views that a recording opens with, made for each task."""
 
 import rerun as rr
 import rerun.blueprint as rrb
 
 from upswing.runs.recording.frames import FRAME
+from upswing.study.task import Task
 
 PENDULUM_SIZE = 0.26
 """Half the height of the picture of the pendulum [m]."""
@@ -15,18 +16,12 @@ def whole_run() -> rrb.TimeAxis:
     return rrb.TimeAxis(view_range=rr.TimeRange(start=unlimited, end=unlimited))
 
 
-FIRST_COLUMNS = {
-    "balancing": ("falls", "falls_last_fifth", "upright_share"),
-    "full-control": ("upright_share", "above_horizontal_share", "falls"),
-}
-"""The measures that a catalog's table of a kind of task shows first."""
-
 HIDDEN_COLUMNS = ("digest", "dirty", "git_commit", "spec", "task", "seconds", "steps_per_second")
 
 
-def table_layout(kind: str) -> rrb.TableBlueprint:
-    """The catalog's table of the runs of a ``kind`` of task: what a run is, then what came of it."""
-    measures = FIRST_COLUMNS.get(kind, FIRST_COLUMNS["full-control"])
+def table_layout(task: Task) -> rrb.TableBlueprint:
+    """The catalog's table of the runs of a task: what a run is, then what came of it."""
+    measures = task.first_measures
     first = ("architecture", "alpha", "seed", *measures, "first_stable_step")
     rest = ("mean_reward", "steps")
     columns = [rrb.table.Column("recording link", name="recording")]
@@ -39,16 +34,16 @@ def table_layout(kind: str) -> rrb.TableBlueprint:
     columns += [rrb.table.Column(name, visible=False) for name in hidden]
     best_first = rrb.table.SortBy(
         f"property:run:{measures[0]}",
-        direction="ascending" if kind == "balancing" else "descending",
+        direction="ascending" if task.judged_by == "falls" else "descending",
     )
     return rrb.TableBlueprint(
         table_layout=rrb.table.TableLayout(columns=columns), sort_by=best_first
     )
 
 
-def run_layout(kind: str) -> rrb.Blueprint:
-    """The layout of a run of a ``kind`` of task, for a laptop's screen."""
-    limit = 90 if kind == "balancing" else 180
+def run_layout(task: Task) -> rrb.Blueprint:
+    """The layout of a run of a task, for a laptop's screen."""
+    limit = task.angle_limit
 
     def lines(
         name: str, *origins: str, axis: tuple[float, float] | None = None

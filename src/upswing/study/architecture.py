@@ -1,0 +1,102 @@
+"""An architecture as it is configured: a learner, a feature encoder and an algorithm.
+
+Each of the three is a file; its options, and what it goes with, stand there in a class ``Options``.
+"""
+
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, SerializeAsAny, model_validator
+
+from upswing.study.declared import Family, part_name, part_schema
+from upswing.study.names import Name
+from upswing.study.values import Discount, Share, Strict
+
+Features = Literal["tile", "tiles", "state"]
+"""What a feature encoder says of a state: the tile that it lies in, several that overlap, or (φ, φ̇)."""
+
+
+class Architecture(Strict):
+    """What learns, and from what (§4.4–4.6)."""
+
+    learner: Annotated[str, part_name("learners"), part_schema("learners")] = Field(
+        description="What holds Q; a file in src/upswing/agents/learners."
+    )
+    coding: Annotated[str, part_name("codings"), part_schema("codings")] = Field(
+        default="grid",
+        description="The feature encoder: what the learner is told of a state; a file in "
+        "src/upswing/agents/features.",
+    )
+    method: Annotated[str, part_name("methods"), part_schema("methods")] = Field(
+        default="q-learning",
+        description="The algorithm: how it learns from a step; a file in "
+        "src/upswing/agents/algorithms.",
+    )
+    epsilon: Share | None = Field(default=None, description="Its own ε in place of the study's.")
+    discount: Discount | None = Field(
+        default=None, description="Its own γ in place of the study's."
+    )
+
+    takes: ClassVar[tuple[Features, ...]] = ("tile", "tiles", "state")
+    """What a learner can learn from."""
+
+    gives: ClassVar[Features] = "tile"
+    """What a feature encoder gives."""
+
+    learns: ClassVar[bool] = True
+    """Whether there is anything to learn, and so a step size α."""
+
+    def check(self) -> None:
+        """Raise ``ValueError`` if what is chosen does not go together; each part checks its own."""
+
+    def inner_learners(self) -> tuple[str, ...]:
+        """The learners that the learner is made of, by name."""
+        return ()
+
+    @property
+    def is_modular(self) -> bool:
+        """Whether two modules share the grid of the thesis (§4.6.3)."""
+        return bool(getattr(self, "modular", False))
+
+    @model_validator(mode="after")
+    def _goes_together(self) -> Self:
+        if self.gives not in self.takes:
+            raise ValueError(
+                f"`coding: {self.coding}` gives {MEANING[self.gives]}; {self.learner} takes "
+                f"{' or '.join(MEANING[features] for features in self.takes)}"
+            )
+        for part in type(self).__mro__:
+            if "check" in vars(part):
+                part.check(self)  # type: ignore[attr-defined]
+        return self
+
+
+MEANING: dict[Features, str] = {
+    "tile": "one tile",
+    "tiles": "several tiles at once",
+    "state": "the state itself",
+}
+
+
+class NamedArchitecture(Architecture):
+    """An architecture and the name it has in the study."""
+
+    name: Name
+
+
+ARCHITECTURES = Family(
+    Architecture, {"learner": "learners", "coding": "codings", "method": "methods"}
+)
+AnyArchitecture = Annotated[SerializeAsAny[Architecture], ARCHITECTURES.chooser(Architecture)]
+AnyNamedArchitecture = Annotated[
+    SerializeAsAny[NamedArchitecture], ARCHITECTURES.chooser(NamedArchitecture)
+]
+
+
+def architecture_of(**keys: Any) -> Architecture:
+    """An architecture with the options of its parts."""
+    return ARCHITECTURES.make(Architecture, keys)
+
+
+def architecture_named(name: str, **keys: Any) -> NamedArchitecture:
+    """The same with a name."""
+    return ARCHITECTURES.make(NamedArchitecture, {"name": name, **keys})
