@@ -57,7 +57,7 @@ SEARCH_TEXT = canonical_search(STUDY)
 # Experiments with a title are changes to the thesis, held against what is possible at all.
 CHANGES = any(experiment.title for experiment in STUDY.experiments)
 # A figure can be drawn when all cells that it shows are in the study.
-DRAWABLE = drawable(MATRIX.cells, CHANGES)
+DRAWABLE = drawable(MATRIX.cells, CHANGES, STUDY.figures)
 
 
 BEYOND_TABLES = [f"{RESULTS}/{table}" for table in (BOUND, MAPS, CHANGED)]

@@ -95,6 +95,7 @@ def write_report(results: Path, templates: Path) -> None:
         "verdicts": verdicts,
         "counts": _counts(verdicts),
         "figures": {figure["name"]: figure for figure in _figures(results)},
+        "own_figures": [name for name in study.figures if name not in figures.NAMES],
         "beyond": _beyond(results),
         "readings": _readings(study.readings),
         "swept": _swept(results, study),

@@ -52,6 +52,10 @@ class Architecture(Strict):
         """The learners that the learner is made of, by name."""
         return ()
 
+    def in_words(self) -> str:
+        """What the learner is, for a reader of the page."""
+        return f"the learner {self.learner}"
+
     @property
     def is_modular(self) -> bool:
         """Whether two modules share the grid of the thesis (§4.6.3)."""

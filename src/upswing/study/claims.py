@@ -226,8 +226,8 @@ class Claim(Strict):
 
     statement: Text
     section: Text
-    figure: Annotated[int, Field(ge=5, le=11)] | None  # of the thesis
-    cell: CellName | None  # the cell whose worst, median and best run show it
+    figure: Annotated[int, Field(ge=5, le=11)] | None = None  # of the thesis
+    cell: CellName | None = None  # the cell whose worst, median and best run show it
     note: Text = ""  # what a reader of the verdict must know
     parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
 

@@ -21,6 +21,11 @@ class Options(architecture.Architecture):
         description="What a control does: always 0, or any action."
     )
 
+    def in_words(self) -> str:
+        """For a reader of the page."""
+        idle = self.behaviour == "idle"
+        return "no control: the cart never moves" if idle else "every action at random"
+
     def check(self) -> None:
         """Nothing is learned, by one or by two."""
         if self.is_modular:

@@ -32,6 +32,16 @@ class Options(architecture.Architecture):
         description="Numbers of units of one or two hidden layers, input side first.",
     )
 
+    def in_words(self) -> str:
+        """For a reader of the page."""
+        units = " and ".join(map(str, self.hidden))
+        told = "a one-hot input for the tile" if self.gives == "tile" else "the state as input"
+        return (
+            f"three networks, one for each action: {told}, {units} logistic hidden units, one linear "
+            "output; an update moves the weights by η α δ times the gradient, where δ is the TD error "
+            "and η backpropagation’s own rate (R12)"
+        )
+
     def check(self) -> None:
         """There is one hidden layer where the state itself goes in."""
         if self.gives == "state" and len(self.hidden) > 1:

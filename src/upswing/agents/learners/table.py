@@ -18,6 +18,10 @@ class Options(architecture.Architecture):
 
     takes: ClassVar[tuple[architecture.Features, ...]] = ("tile", "tiles")
 
+    def in_words(self) -> str:
+        """For a reader of the page."""
+        return "a table of Q with an entry for each tile and action"
+
 
 class Table(NamedTuple):
     """The table that the loop steps."""

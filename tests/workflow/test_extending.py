@@ -1,0 +1,178 @@
+"""The worked examples of docs/extend, as a reader would do them: one new file, named in a configuration."""
+
+import re
+import subprocess
+import sys
+
+import pandas as pd
+import pytest
+import yaml
+
+from tests.paths import ROOT
+from tests.workflow.small_study import BIN, Edited
+
+PAGES = sorted(path.stem for path in (ROOT / "docs/extend").glob("*.md") if path.stem != "index")
+PARTS = [page for page in PAGES if page != "claim"]
+BLOCK = re.compile(r"^```(?:python|yaml) title=\"([^\"]+)\"\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def blocks(page):
+    """The files that a page asks a reader to write, by their paths."""
+    return dict(BLOCK.findall((ROOT / f"docs/extend/{page}.md").read_text("utf-8")))
+
+
+def sources(folder):
+    return {
+        path.relative_to(folder): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.suffix in (".py", ".smk") or path.name == "Snakefile"
+    }
+
+
+def followed(page, folder):
+    """A copy of the project in which a reader has done what the page says."""
+    study = Edited(folder)
+    before = sources(folder)
+    for path, text in blocks(page).items():
+        (folder / path).write_text(text, "utf-8")
+    study.write((folder / "config/mine.yaml").read_text("utf-8"))
+    after = sources(folder)
+    assert {path for path in after if after[path] != before.get(path)} == {
+        path for path in after if path not in before
+    }
+    return study, [path for path in after if path not in before]
+
+
+def test_there_is_a_page_for_every_kind_of_part():
+    assert PAGES == ["algorithm", "claim", "encoder", "figure", "learner", "task"]
+
+
+@pytest.mark.parametrize("page", PARTS)
+def test_a_part_is_one_new_file_that_a_configuration_names(page, tmp_path):
+    study, new = followed(page, tmp_path)
+    assert len(new) == 1, new
+    # Its name stands on one line that defines it; an experiment then lists what is defined there.
+    name = new[0].stem.replace("_", "-")
+    config = (tmp_path / "config/mine.yaml").read_text("utf-8")
+    key = {"learner": "learner: ", "encoder": "coding: ", "algorithm": "method: "}.get(page, "")
+    assert len(re.findall(rf"{key or '(?:kind: |figures: .)'}{name}\b", config)) == 1
+    ran = study.jobs()
+    results = tmp_path / "results/mine"
+    runs = pd.read_parquet(results / "tables/runs.parquet")
+    assert len(runs) == ran.pop("train_seeds_0_to_1") * 2
+    assert (results / "report/index.html").is_file()
+    assert runs["mean_reward"].between(-11, 0).all()
+    if page == "figure":
+        assert (results / f"figures/{name}.svg").is_file()
+        assert "The mean reward of every run" in (results / "report/index.html").read_text("utf-8")
+    if page == "task":
+        assert not runs["falls"].isna().any()
+        trajectory = pd.read_parquet(results / f"runs/{runs['run'][0]}.trajectory.parquet")
+        assert abs(trajectory["angle"].iloc[0]) == pytest.approx(3.14159, abs=1e-4)
+    # What was made stays as it is, and an edit of the part trains its cells again.
+    assert study.plan() == {}
+    if page in ("learner", "encoder", "algorithm"):
+        study.edit(new[0], "def create(", "UNUSED = 1\n\n\ndef create(")
+        assert study.plan()["train_seeds_0_to_1"] == 1
+
+
+@pytest.mark.parametrize("page", ["algorithm", "encoder", "learner"])
+def test_a_part_learns_the_same_compiled_and_as_plain_python(page, tmp_path):
+    study, _ = followed(page, tmp_path)
+    config = yaml.safe_load((tmp_path / "config/mine.yaml").read_text("utf-8"))
+    config["tasks"]["balancing"]["steps"] = 400
+    study.write(config)
+    program = (
+        "from pathlib import Path; from upswing.study.config import load;"
+        "from upswing.study.matrix import Matrix; from upswing.runs.simulation import prepare;"
+        "from upswing.physics.environment import empty_trajectory;"
+        "spec = next(iter(Matrix(load(Path('config/small.yaml'))).cells.values()));"
+        "setting = prepare(spec, 0); trajectory = empty_trajectory(400);"
+        "setting.advance(trajectory, 0, 400);"
+        "print(trajectory.angle.tobytes().hex(), trajectory.td_error.tobytes().hex());"
+        "print(sum(abs(values).sum() for values in setting.learner.learned.values()) > 0)"
+    )
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", program], cwd=tmp_path, check=True, capture_output=True,
+            text=True, env={"PYTHONPATH": str(tmp_path / "src"), "NUMBA_DISABLE_JIT": off, "HOME": str(tmp_path)},
+        ).stdout
+        for off in ("0", "1")
+    ]  # fmt: skip
+    assert said[0] == said[1]
+    assert said[0].endswith("True\n")
+
+
+def test_a_claim_is_one_entry(tmp_path):
+    study = Edited(tmp_path)
+    (path, entry), *others = blocks("claim").items()
+    assert (path, others) == ("config/claims.yaml", [])
+    claims = tmp_path / path
+    claims.write_text(claims.read_text("utf-8") + "\n" + entry, "utf-8")
+    checked = subprocess.run(
+        [BIN / "upswing", "check", "config/config.yaml"], cwd=tmp_path, check=False,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert checked.returncode == 0, checked.stderr
+    study.write({
+        "results": "results", "seeds": 2,
+        "tasks": {"balancing": {"kind": "balancing", "steps": 6_000}},
+        "architectures": {"table": {"learner": "table"}},
+        "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [0.1]}],
+    })  # fmt: skip
+    study.jobs("--", "results/tables/verdicts.parquet")
+    verdicts = pd.read_parquet(tmp_path / "results/tables/verdicts.parquet").set_index("claim")
+    assert verdicts.at["C17", "verdict"] != "not in this study"
+    assert verdicts.at["C17", "n"] == 2
+
+
+def test_an_option_of_one_learner_reruns_its_cells_and_nothing_else(tmp_path):
+    study = Edited(tmp_path)
+    study.jobs()
+    study.edit(
+        "src/upswing/agents/learners/networks.py",
+        "    def check(self) -> None:",
+        "    slope: float = 1.0\n\n    def check(self) -> None:",
+    )
+    assert study.plan()["train_seeds_0_to_1"] == 1  # of five cells, the one with networks
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('takes: ClassVar[tuple[architecture.Features, ...]] = ("state",)', 'takes = np.zeros(3)', "Options: "),
+        ('class Options(architecture.Architecture):', 'class Options:', "must be a class Options(Architecture)"),
+    ],
+)  # fmt: skip
+def test_options_that_cannot_be_read_are_named_in_one_line(old, new, expected, tmp_path):
+    study, [path] = followed("learner", tmp_path)
+    study.edit(path, old, new)
+    done = study.snakemake("--dry-run")
+    said = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert "Traceback" not in said
+    assert any(str(path) in line and expected in line for line in said.splitlines()), said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("figures: [rewards]", "figures: [reward]", "did you mean 'rewards'?"),
+        ("figures: [rewards]", "figures: [fig05]", "balancing/table/alpha-0.1"),
+    ],
+)
+def test_a_figure_that_cannot_be_drawn_is_refused_before_anything_runs(
+    old, new, expected, tmp_path
+):
+    study, _ = followed("figure", tmp_path)
+    config = (
+        (tmp_path / "config/mine.yaml")
+        .read_text("utf-8")
+        .replace("alphas: [1, 0.1]", "alphas: [0.1]")
+    )
+    study.write(config.replace(old, new))
+    done = study.snakemake("--dry-run")
+    said = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert "Traceback" not in said
+    assert expected in said
