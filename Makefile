@@ -141,7 +141,7 @@ schema: install ## Renew what is generated from the types: schema and key refere
 
 .PHONY: docs
 docs: install ## Build the documentation into build/docs; it reads without a network
-	@$(BIN)/mkdocs build --quiet --strict
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
 	@echo "The documentation is at build/docs/index.html"
 
 .PHONY: screenshots

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.files.trajectory import WHOLE_AFTER_SUCCESS, WHOLE_BEFORE_SUCCESS
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.results import Results
@@ -36,19 +35,15 @@ WIDTH, HEIGHT, PANEL = 720, 330, 360
 PIVOT_HEIGHT, ROD = 150, 84
 """Height of the pivot in the picture, and length of the rod [px]."""
 
-PUSH = 70
-"""Length of the mark that shows the cart's largest acceleration [px]."""
-
 STRIP_TOP, STRIP_HEIGHT, STRIP_LEFT, STRIP_WIDTH = 252, 60, 40, 300
 
 
 class Stretch(NamedTuple):
-    """What a panel plays: arrays of shape (frames,)."""
+    """What a panel plays."""
 
     title: str
     subtitle: str
-    angle: Real  # φ from upright, without jumps between turns [rad]
-    push: Real  # the cart's mean acceleration in a frame, as a share of the largest
+    angle: Real  # φ from upright, without jumps between turns [rad]: (frames,)
 
 
 def stretches(results: Results) -> list[Stretch]:
@@ -74,17 +69,13 @@ def _stretch(results: Results, says: str, run: str, success: float | None) -> St
     last = int(stored["step"].iloc[-1]) + 1
     first = last - STEPS if success is None else int(success) - WHOLE_BEFORE_SUCCESS
     first = min(max(first, 0), max(last - STEPS, 0))
-    rows = stored[stored["step"].between(first, first + STEPS - 1)]
-    frames = len(rows) // STEPS_A_FRAME
-    rows = rows.iloc[: frames * STEPS_A_FRAME]
-    angle = np.unwrap(rows["angle"].to_numpy(float)[::STEPS_A_FRAME])
+    shown = range(first, min(first + STEPS, last), STEPS_A_FRAME)
+    angle = np.unwrap(stored.loc[stored["step"].isin(shown), "angle"].to_numpy(float))
     if results.study.readings.zero_of_angle == "hanging":
         angle = angle + np.pi
-    accelerations = np.array(ACCELERATIONS)[rows["action"].to_numpy(int)]
-    push = accelerations.reshape(frames, STEPS_A_FRAME).mean(axis=1) / max(ACCELERATIONS)
     what = "the end of its run" if success is None else "from where it first stays up"
     title = f"{says}: {CellId.parse(cell_of(run)).label}"
-    return Stretch(title, f"{what}, step {first:,}", angle, push)
+    return Stretch(title, f"{what}, step {first:,}", angle)
 
 
 def drawn(panels: Sequence[Stretch]) -> str:
@@ -111,7 +102,6 @@ text { font: 13px sans-serif; fill: #3b4252; text-anchor: middle }
 .small { font-size: 10px }
 .card { fill: #f6f7f9 }
 .ground { stroke: #8a93a5; stroke-width: 1.5 }
-.push { fill: #d98e04 }
 .line { stroke: #8a93a5; fill: none }
 .cart { fill: #3b4252 }
 .rod { stroke: #c0392b; stroke-width: 8; stroke-linecap: round }
@@ -122,11 +112,10 @@ text { font: 13px sans-serif; fill: #3b4252; text-anchor: middle }
 
 
 def _moves(number: int, panel: Stretch) -> str:
-    """The movements of a panel: the rod, the cart's push and the mark of now."""
+    """The movements of a panel: the rod and the mark of now."""
     seconds = len(panel.angle) * STEPS_A_FRAME * Pendulum().time_step
     parts = {
         "rod": _frames(f"transform:rotate({turn}deg)" for turn in _turns(panel.angle)),
-        "push": _frames(f"transform:scaleX({share:.2f})" for share in panel.push),
         "now": f"0%{{transform:translate(-{STRIP_WIDTH}px)}}100%{{transform:translate(0)}}",
     }
     return "".join(
@@ -164,8 +153,6 @@ def _body(number: int, panel: Stretch) -> str:
         f'<text class="title" x="{middle}" y="26">{escape(panel.title)}</text>'
         f'<text x="{middle}" y="45">{escape(panel.subtitle)}</text>'
         f'<path class="ground" d="M40 {ground}H{PANEL - 40}"/>'
-        f'<g transform="translate({middle} {PIVOT_HEIGHT})"><rect class="push push{number}" '
-        f'transform="scale({panel.push[-1]:.2f} 1)" y="-4" width="{PUSH}" height="8"/></g>'
         f'<rect class="cart" x="{middle - 22}" y="{PIVOT_HEIGHT - 8}" width="44" height="16" rx="3"/>'
         f'<g transform="translate({middle} {PIVOT_HEIGHT})"><path class="rod rod{number}" '
         f'transform="rotate({_turns(panel.angle)[-1]})" d="M0 0V-{ROD}"/></g>'

@@ -22,8 +22,9 @@ PICTURES = Path("docs/pictures")
 """Where the pictures are, beside the README."""
 
 ANIMATION = "pendulum.svg"
+README = Path("README.md")
 PARTS = {
-    Path("README.md"): ("verdicts",),
+    README: ("verdicts",),
     Path("docs/findings.md"): ("evidence",),
     Path("docs/thesis.md"): ("deviations",),
 }
@@ -45,6 +46,9 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     """
     if not (results / VERDICTS).exists():
         raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
+    places = {page: readme if page == README else readme.parent / page for page in PARTS}
+    if lost := [place for place in places.values() if not place.exists()]:
+        raise BadInput([f"{place}: there is no such page" for place in lost])
     verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
         verdicts.to_csv(beside, index=False)
@@ -62,8 +66,7 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     if panels := stretches(Results(results)):
         with written(pictures / ANIMATION) as beside:
             beside.write_text(drawn(panels), "utf-8")
-    for page in PARTS:
-        place = readme if page.name == "README.md" else readme.parent / page
+    for page, place in places.items():
         text = renewed(place.read_text("utf-8"), page, templates)
         with written(place) as beside:
             beside.write_text(text, "utf-8")
