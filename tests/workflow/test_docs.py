@@ -203,7 +203,7 @@ def test_what_a_listing_names_stands_in_the_file_beside_it(path):
             if word := re.fullmatch(r"(\w+)(\(.*\))?", name):
                 checked += 1
                 assert re.search(rf"\b{word[1]}\b", source), f"{name} is not in {files}"
-    assert checked or path.stem in ("dqn", "encoders", "bound")
+    assert checked or path.stem in ("encoders", "bound")
 
 
 def blocks_of_configuration() -> Iterator[tuple[str, dict]]:
