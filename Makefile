@@ -139,12 +139,17 @@ schema: install ## Renew what is generated from the types: schema and key refere
 	@$(BIN)/upswing schema > config/schema.json
 	@$(BIN)/upswing keys > config/README.md
 
+.PHONY: docs
+docs: install ## Build the documentation into build/docs; it reads without a network
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
+	@echo "The documentation is at build/docs/index.html"
+
 .PHONY: screenshots
-screenshots: install ## Renew the README's pictures of the recordings (needs a Vulkan driver: Mesa's)
-	@$(BIN)/upswing screenshots results
+screenshots: install ## Renew the documentation's pictures of the recordings (needs a Vulkan driver: Mesa's)
+	@$(BIN)/upswing screenshots results --into docs/pictures
 
 .PHONY: readme
-readme: install ## Renew what the README shows of the results: verdicts, figures, deviations
+readme: install ## Renew what README and documentation show of the results: verdicts, pictures, deviations
 	@$(BIN)/upswing readme results
 
 .PHONY: snakemake-report
@@ -155,7 +160,7 @@ snakemake-report: install ## Snakemake's own report: every output with its rule,
 .PHONY: lock
 lock: ## Renew requirements.lock from pyproject.toml
 	$(PYTHON) -m venv --clear .lock-venv
-	.lock-venv/bin/python -m pip install --quiet '.[dev]'
+	.lock-venv/bin/python -m pip install --quiet '.[dev,docs]'
 	{ echo "# Exact versions of everything that upswing uses. Renew with: make lock"; \
 	  .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | sed 's/+cpu$$//'; } > requirements.lock
 	rm -rf .lock-venv build

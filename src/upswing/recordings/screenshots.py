@@ -1,4 +1,4 @@
-"""Pictures of the recordings for the README, taken in a viewer without a screen."""
+"""Pictures of the recordings for the documentation, taken in a viewer without a screen."""
 
 import time
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What the README shows of the results: a table of verdicts, two figures, the deviations."""
+"""What README and documentation show of the results: verdicts, pictures, the deviations."""
 
 from pathlib import Path
 
@@ -7,27 +7,48 @@ from PIL import Image
 
 from upswing.analysis.robustness.tables import OF_A_SELECTION, SELECTION
 from upswing.report import words
+from upswing.report.animation import drawn, stretches
 from upswing.runs.files.atomic import written
 from upswing.runs.files.table import read_table
 from upswing.runs.files.tables import VERDICTS, read_verdicts
+from upswing.runs.results import Results
 from upswing.study.errors import BadInput
 from upswing.study.yaml_file import read_yaml
 
 FIGURES = ("overview", "step-sizes")
-"""The figures that the README shows."""
+"""The figures that the documentation shows."""
+
+PICTURES = Path("docs/pictures")
+"""Where the pictures are, beside the README."""
+
+ANIMATION = "pendulum.svg"
+README = Path("README.md")
+PARTS = {
+    README: ("verdicts",),
+    Path("docs/findings.md"): ("evidence",),
+    Path("docs/thesis.md"): ("deviations",),
+}
+"""The pages with generated parts, by their place beside the README, and which parts they have."""
 
 TABLE = "verdicts.csv"
 COLOURS = 64
+END = "<!-- end -->"
 
 
 def write_readme(results: Path, templates: Path, readme: Path) -> None:
-    """Renew the generated parts of ``readme``, and what they come from below ``templates``.
+    """Renew the generated parts of ``readme`` and of the pages and pictures in ``docs`` beside it.
+
+    What they come from is kept below ``templates``. The animation stays as it is if the study has not
+    the two cells that it shows.
 
     Raises:
-        BadInput: the results have no verdicts or figures, or the README no place for a part.
+        BadInput: the results have no verdicts or figures, or a page no place for a part.
     """
     if not (results / VERDICTS).exists():
         raise BadInput([f"{results / VERDICTS}: missing; `make reproduce` makes it"])
+    places = {page: readme if page == README else readme.parent / page for page in PARTS}
+    if lost := [place for place in places.values() if not place.exists()]:
+        raise BadInput([f"{place}: there is no such page" for place in lost])
     verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
         verdicts.to_csv(beside, index=False)
@@ -35,19 +56,24 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
         selection = read_table(results / SELECTION, OF_A_SELECTION, "`make readings` makes it")
         with written(templates / "selection.csv") as beside:
             selection.to_csv(beside, index=False, float_format="%.6g")
+    pictures = readme.parent / PICTURES
     for name in FIGURES:
         source = results / "figures" / f"{name}.png"
         if not source.exists():
             raise BadInput([f"{source}: missing; `upswing figure {name} {results}` makes it"])
-        with Image.open(source) as image, written(templates / "pictures" / source.name) as beside:
+        with Image.open(source) as image, written(pictures / source.name) as beside:
             image.convert("RGB").quantize(COLOURS).save(beside, format="PNG", optimize=True)
-    text = renewed(readme.read_text("utf-8"), templates)
-    with written(readme) as beside:
-        beside.write_text(text, "utf-8")
+    if panels := stretches(Results(results)):
+        with written(pictures / ANIMATION) as beside:
+            beside.write_text(drawn(panels), "utf-8")
+    for page, place in places.items():
+        text = renewed(place.read_text("utf-8"), page, templates)
+        with written(place) as beside:
+            beside.write_text(text, "utf-8")
 
 
 def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
-    """The table of verdicts as the README shows it: one row a claim, all of it text."""
+    """The table of verdicts as it is shown in full: one row a claim, all of it text."""
     rows = [{str(k): v for k, v in row.items()} for row in verdicts.to_dict("records")]
     return pd.DataFrame(
         {
@@ -69,21 +95,43 @@ def counted(table: pd.DataFrame) -> str:
     return f"Of {len(table)} claims: {'; '.join(parts)}."
 
 
-def renewed(readme: str, templates: Path) -> str:
-    """The README with its generated parts made anew from what is below ``templates``."""
-    table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
+def in_short(table: pd.DataFrame) -> pd.DataFrame:
+    """The verdicts as the README shows them: claim, verdict, estimate."""
+    claims = table["claim"] + ": " + table["the thesis says"]
+    return table[["verdict", "estimate [95 %]"]].assign(claim=claims).iloc[:, [2, 0, 1]]
+
+
+def markdown(table: pd.DataFrame) -> str:
+    """A table in Markdown."""
     lines = [" | ".join(row) for row in [list(table.columns), ["---"] * len(table.columns)]]
     lines += [" | ".join(part.replace("|", r"\|") for part in row) for row in table.to_numpy()]
-    deviations = read_yaml(templates / "deviations.yaml")["deviations"]
-    parts = {
-        "verdicts": counted(table) + "\n\n" + "\n".join(f"| {line} |" for line in lines),
-        "deviations": "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1)),
-    }
-    for name, content in parts.items():
-        mark, end = f"<!-- {name}: make readme -->\n", "<!-- end -->"
-        before, begun, rest = readme.partition(mark)
-        _, ended, after = rest.partition(end)
+    return "\n".join(f"| {line} |" for line in lines)
+
+
+def renewed(text: str, page: Path, templates: Path) -> str:
+    """A page's ``text`` with its generated parts made anew from what is below ``templates``.
+
+    Args:
+        text: what the page says now.
+        page: which of ``PARTS`` it is.
+        templates: the folder with the tables and the deviations.
+
+    Raises:
+        BadInput: there is no place for a part.
+    """
+    for name in PARTS[page]:
+        mark = f"<!-- {name}: make readme -->\n"
+        before, begun, rest = text.partition(mark)
+        _, ended, after = rest.partition(END)
         if not (begun and ended):
-            raise BadInput([f"README.md: there is no place for {name}, {mark.strip()} … {end}"])
-        readme = f"{before}{mark}\n{content}\n\n{end}{after}"
-    return readme
+            raise BadInput([f"{page}: there is no place for {name}, {mark.strip()} … {END}"])
+        text = f"{before}{mark}\n{_part(name, templates)}\n\n{END}{after}"
+    return text
+
+
+def _part(name: str, templates: Path) -> str:
+    if name == "deviations":
+        deviations = read_yaml(templates / "deviations.yaml")["deviations"]
+        return "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1))
+    table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
+    return f"{counted(table)}\n\n{markdown(in_short(table) if name == 'verdicts' else table)}"

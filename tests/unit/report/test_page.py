@@ -16,12 +16,8 @@ from upswing.recordings.viewer import write_viewer
 from upswing.report import words
 from upswing.report.cost import costs
 from upswing.report.page import PAGE, write_report
-from upswing.report.readme import TABLE, renewed, verdicts_of, write_readme
 from upswing.report.scale import strip
 from upswing.runs.files.tables import CELLS, RUNS, VERDICTS
-from upswing.runs.study_file import read_study
-from upswing.study.config import load
-from upswing.study.errors import BadInput
 
 
 @pytest.fixture(scope="module")
@@ -281,35 +277,3 @@ def test_words_for_what_is_unknown():
     assert words.number(-1234.5, 1) == "−1,234.5"
     assert words.alpha(0.001) == "0.001"
     assert json.dumps(words.recording("runs/a/b/alpha-0.5/seed-1.rrd")) == '"a_b_alpha-0-5_seed-1"'
-
-
-def test_the_readme_shows_what_was_generated(tmp_path):
-    readme = Path("README.md").read_text("utf-8")
-    assert renewed(readme, Path("report")) == readme
-    assert readme.count("| C") == 16
-    with pytest.raises(BadInput, match="there is no place for verdicts"):
-        renewed("nothing", Path("report"))
-
-
-def test_the_readmes_verdicts_are_those_of_the_study_where_it_was_run():
-    path = Path("results") / VERDICTS
-    study = Path("results/study.json")
-    if not (path.exists() and study.exists()) or read_study(Path("results")) != load(
-        Path("config/config.yaml")
-    ):
-        pytest.skip("the study of config/config.yaml has not been run here")
-    shown = pd.read_csv(Path("report") / TABLE, dtype=str, keep_default_na=False)
-    pd.testing.assert_frame_equal(shown, verdicts_of(pd.read_parquet(path)), check_dtype=False)
-
-
-def test_the_readme_is_renewed_from_results(results, address, tmp_path):
-    shutil.copytree("report", tmp_path / "report")
-    shutil.copy("README.md", tmp_path)
-    (tmp_path / "report/pictures/overview.png").unlink()
-    write_readme(results.folder, tmp_path / "report", tmp_path / "README.md")
-    assert (tmp_path / "report/pictures/overview.png").stat().st_size > 5_000
-    text = (tmp_path / "README.md").read_text("utf-8")
-    assert text != Path("README.md").read_text("utf-8")
-    assert text == renewed(text, tmp_path / "report")
-    with pytest.raises(BadInput, match="`make reproduce` makes it"):
-        write_readme(tmp_path, tmp_path / "report", tmp_path / "README.md")

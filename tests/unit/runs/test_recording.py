@@ -1,6 +1,5 @@
 """Recordings: what is in them, which are chosen, and how they are served and shown."""
 
-import re
 import shutil
 import signal
 import socket
@@ -338,14 +337,6 @@ def test_screenshots_are_taken(results, tmp_path, monkeypatch):
         with Image.open(tmp_path / f"{name}.png") as picture:
             assert picture.width == 1440
             assert len(picture.convert("RGB").getcolors(1 << 20)) > 20  # something is drawn
-
-
-def test_the_readme_shows_the_pictures_that_there_are():
-    shown = set(
-        re.findall(r"\((report/pictures/[a-z-]+\.png)\)", Path("README.md").read_text("utf-8"))
-    )
-    assert shown == {str(path) for path in Path("report/pictures").glob("*.png")}
-    assert len(shown) == 5
 
 
 def test_rerun_is_installed_beside_python():
