@@ -1,83 +1,89 @@
-"""Tables for the terminal."""
+"""Text for readers: wrapped and coloured in a terminal, one line a row in a pipe or a file."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+import os
+import shutil
+import sys
+import textwrap
+from collections.abc import Collection, Mapping, Sequence
+from unicodedata import combining, east_asian_width
 
-import pandas as pd
-from rich.console import Console
-from rich.table import Table
+import typer
 
-from upswing.study.claims import words_of
-
-if TYPE_CHECKING:
-    from upswing.analysis.compare import Comparison
-    from upswing.analysis.doctor import Diagnosis
-
-STYLES = {
-    "reproduced": "green",
-    "partly": "yellow",
-    "inconclusive": "magenta",
-    "not reproduced": "red",
-    "not in this study": "dim",
-}
-SHOWN = 10
-"""Number of runs named of a long list."""
+GAP = 2
+"""Number of spaces between two columns."""
 
 
-def print_verdicts(verdicts: pd.DataFrame) -> None:
-    """Print one row for each claim."""
-    columns = ("", "claim", "verdict", "estimate [95 %]", "threshold", "n", "p (Holm)", "measured")
-    table = Table(*columns, show_lines=True)
-    for row in verdicts.to_dict("records"):
-        style = STYLES[row["verdict"]]
-        table.add_row(
-            row["claim"],
-            row["statement"],
-            f"[{style}]{words_of(row['verdict'], row['could_be_better'])}[/{style}]",
-            rf"{row['estimate']:.3g} \[{row['low']:.3g}, {row['high']:.3g}]",
-            row["threshold"],
-            str(row["n"]),
-            f"{row['p_holm']:.2g}",
-            f"{row['measure']}\n[dim]{row['note']}[/dim]" if row["note"] else row["measure"],
-        )
-    Console().print(table)
+def terminal_width() -> int | None:
+    """Number of columns of the terminal; None in a pipe or a file, where no line is wrapped."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
-def print_comparison(comparison: "Comparison") -> None:
-    """Print what differs between two folders."""
-    console = Console(highlight=False)
-    for claim, before, after in comparison.changed_verdicts:
-        console.print(f"{claim}: {before} → {after}")
-    if not comparison.changed_verdicts:
-        console.print("every verdict is the same")
-    for claim, what, one, other in comparison.parted_estimates:
-        console.print(f"{claim}: {what}: {one:.4g} → {other:.4g}, outside each other's intervals")
-    changed = len(comparison.changed_runs)
-    console.print(f"{changed} of {comparison.common_runs} runs that both have are not identical")
-    _name(console, comparison.changed_runs)
-    for side, runs in (("first", comparison.only_in_a), ("second", comparison.only_in_b)):
-        if runs:
-            console.print(f"{len(runs)} runs are only in the {side}")
-            _name(console, runs)
+def say(text: str, indent: int = 0) -> None:
+    """Print one paragraph; in a terminal its further lines are indented by so many columns."""
+    print(_wrapped(text, indent))
 
 
-def _name(console: Console, runs: Sequence[str]) -> None:
-    for run in runs[:SHOWN]:
-        console.print(f"  {run}")
-    if len(runs) > SHOWN:
-        console.print(f"  … and {len(runs) - SHOWN} more")
+def print_table(
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    right: Collection[str] = (),
+    words: Sequence[str] = (),
+    below: Sequence[Sequence[str]] = (),
+    colours: Mapping[str, str] | None = None,
+) -> None:
+    """Print rows of short cells side by side, each with words of any length.
+
+    The words stand in the line of their row in a pipe, and in a terminal where all lines fit;
+    elsewhere they stand below it, indented.
+
+    Args:
+        header: of every column, and, where there are words, of these.
+        rows: the cells of each row.
+        right: the headers of the columns that are aligned to the right.
+        words: what each row is about, if it has words.
+        below: further lines of each row, always below it.
+        colours: of the cells with these texts, in a terminal.
+    """
+    titles, title = (header[:-1], header[-1:]) if words else (header, ())
+    widths = [max(map(columns_of, column)) for column in zip(titles, *rows, strict=True)]
+    indent = widths[0] + GAP
+    room = terminal_width()
+    longest = max(map(columns_of, (*title, *words)), default=0)
+    beside = room is None or sum(widths) + GAP * len(widths) + longest <= room
+
+    def line(cells: Sequence[str], last: str, paint: Mapping[str, str]) -> str:
+        padded = []
+        for name, cell, width in zip(titles, cells, widths, strict=True):
+            space = " " * (width - columns_of(cell))
+            shown = _coloured(cell, paint.get(cell))
+            padded.append(space + shown if name in right else shown + space)
+        return (" " * GAP).join([*padded, last]).rstrip()
+
+    print(_coloured(line(titles, "".join(title) if beside else "", {}), "bright_black"))
+    for number, cells in enumerate(rows):
+        own = words[number] if words else ""
+        print(line(cells, own if beside else "", colours or {}))
+        for text in (*(() if beside or not own else (own,)), *(below[number] if below else ())):
+            print(_wrapped(" " * indent + text, indent))
 
 
-def print_diagnosis(diagnosis: "Diagnosis") -> None:
-    """What is wrong with a folder of results and what to do, or that nothing is."""
-    for finding in diagnosis.findings:
-        print(f"{finding.path}: {finding.what}\n    {finding.remedy}")
-    if diagnosis.orphans:
-        print(
-            f"{len(diagnosis.orphans)} files are of no run of the study, {diagnosis.orphans[0]} first;"
-        )
-        print("    `make clean-orphans` deletes them")
-    for note in diagnosis.notes:
-        print(note)
-    state = f"{len(diagnosis.findings)} findings" if diagnosis.findings else "all whole"
-    print(f"{diagnosis.runs} runs, {diagnosis.files} files: {state}")
+def columns_of(text: str) -> int:
+    """Number of columns that a text takes in a terminal."""
+    return sum(
+        0 if combining(letter) else 2 if east_asian_width(letter) in "WF" else 1 for letter in text
+    )
+
+
+def _wrapped(text: str, indent: int) -> str:
+    room = terminal_width()
+    if room is None:
+        return text
+    return textwrap.fill(
+        text, room, subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False
+    )
+
+
+def _coloured(text: str, colour: str | None) -> str:
+    if colour is None or not sys.stdout.isatty() or os.environ.get("NO_COLOR"):
+        return text
+    return typer.style(text, fg=colour)

@@ -1,11 +1,17 @@
-"""The subcommands, from outside: what they answer to bad input."""
+"""The subcommands, from outside: what they answer to bad input, and with which code."""
 
 import json
+import re
+import shlex
+import subprocess
 
 import pytest
 
 from tests.helpers import make_spec
-from upswing.cli.main import main
+from tests.paths import ROOT
+from tests.unit.cli.terminal import BOXES, UPSWING, in_terminal
+from upswing.cli.main import PANELS, main
+from upswing.cli.panel import Job
 
 GOOD = make_spec(steps=100).canonical()
 
@@ -34,10 +40,66 @@ def test_bad_input_is_one_message_a_code_and_nothing_written(tmp_path, capsys, a
     assert not results.exists()
 
 
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        ([], "missing command (see `upswing --help`)"),
+        (["figur"], "no such command 'figur'. Did you mean 'figure'? (see `upswing --help`)"),
+        (["--loud"], "no such option: --loud (see `upswing --help`)"),
+        (["tables", "--loud"], "no such option: --loud (see `upswing tables --help`)"),
+        (["figure"], "missing argument 'FIGURE' (see `upswing figure --help`)"),
+        (["train"], "missing argument 'SPEC' (see `upswing train --help`)"),
+        (["tables", "a", "b"], "unexpected extra argument"),
+        (["browse", "--port", "many"], "invalid value for '--port'"),
+        (["tables", "--results"], "'--results' requires an argument"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_the_command_is_one_plain_line(arguments, expected, capsys):
+    assert main(arguments) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith("upswing: ")
+    assert said.err.endswith("\n")
+    assert said.err.count("\n") == 1
+    assert expected in said.err
+
+
+def test_it_is_as_plain_in_a_terminal():
+    shown = in_terminal(80, "figur", NO_COLOR="1")
+    assert (
+        shown == "upswing: no such command 'figur'. Did you mean 'figure'? (see `upswing --help`)\n"
+    )
+    assert not BOXES.search(shown)
+
+
 def test_results_that_cannot_be_written(tmp_path, capsys):
     (tmp_path / "file").write_text("", "utf-8")
     assert main(["train", GOOD, "--results", str(tmp_path / "file")]) == 1
     assert "seed-0" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError("8 GB"), OSError("no disk"), RuntimeError("no luck")]
+)
+def test_another_failure_is_a_line_and_code_1(error, monkeypatch, capsys, tmp_path):
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr("upswing.runs.study_file.write_study", fail)
+    assert main(["study", "{}", "--results", str(tmp_path)]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("upswing: ")
+    assert str(error) in said
+    assert said.count("\n") == 1
+
+
+def test_a_mistake_of_ours_keeps_its_traceback(monkeypatch, tmp_path):
+    def fail(*_):
+        raise KeyError("ours")
+
+    monkeypatch.setattr("upswing.runs.study_file.write_study", fail)
+    with pytest.raises(KeyError):
+        main(["study", "{}", "--results", str(tmp_path)])
 
 
 def test_check_says_what_a_study_comes_to(capsys):
@@ -45,8 +107,36 @@ def test_check_says_what_a_study_comes_to(capsys):
     assert "34 cells, 68 runs" in capsys.readouterr().out
 
 
-def test_without_a_verb_the_usage_is_shown(capsys):
-    with pytest.raises(SystemExit) as stopped:
-        main([])
-    assert stopped.value.code == 2
-    assert "SUBCOMMAND" in capsys.readouterr().err
+def test_nobody_reads_to_the_end():
+    """As in ``upswing keys | head -1``: no traceback, and nothing about a broken pipe."""
+    command = [UPSWING, "keys"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
+
+
+def jobs():
+    return {
+        command.name: command
+        for panel in PANELS
+        for command in panel.registered_commands
+        if command.cls is not None and issubclass(command.cls, Job)
+    }
+
+
+def test_every_log_of_the_workflow_begins_with_how_to_repeat_it():
+    rules = "".join(path.read_text("utf-8") for path in (ROOT / "workflow/rules").glob("*.smk"))
+    called = set(re.findall(r'"upswing ([a-z-]+) .*> \{log:q\}', rules))
+    assert called > {"tables", "verdicts", "figure", "report"}
+    # Training says it for each run, in the run's own log.
+    assert called - {"train"} == jobs().keys()
+
+
+def test_a_job_is_repeated_by_the_first_line_of_its_log(tmp_path, capsys):
+    text = json.dumps({"what": 'isn\'t "a" study'})
+    given = ["study", text, "--results", str(tmp_path / "a folder")]
+    code, first = main(given), capsys.readouterr()
+    words = shlex.split(first.out.splitlines()[0].removeprefix("to repeat it: "))
+    assert words == ["upswing", *given]
+    assert (main(words[1:]), capsys.readouterr()) == (code, first)

@@ -1,0 +1,1 @@
+"""The subcommands: a module for each group, by how they are used. Each calls one typed function."""

@@ -1,0 +1,103 @@
+"""Look at what came out: verdicts, figures, recordings."""
+
+from typing import Annotated, Any
+
+import typer
+
+from upswing.cli.options import CLAIMS, Claims, Named, Positional, results_folder
+from upswing.cli.panel import Job, Panel
+
+panel = Panel("Look")
+
+
+@panel.subcommand("verdicts", cls=Job)
+def verdicts(
+    positional: Positional = None,
+    results: Named = None,
+    claims: Claims = CLAIMS,
+    details: Annotated[
+        bool, typer.Option("--details", help="Also say what is measured, where, and how.")
+    ] = False,
+) -> None:
+    """Judge every claim by the runs and print the verdicts; writes tables/verdicts.parquet."""
+    from upswing.analysis.verdicts import write_verdicts
+    from upswing.cli.shown.verdicts import print_verdicts
+    from upswing.runs.study_file import read_study
+    from upswing.study.claims import load_claims
+
+    folder = results_folder(results, positional)
+    asked = load_claims(claims, read_study(folder))
+    print_verdicts(write_verdicts(folder, asked), details)
+
+
+def _figures() -> list[str]:
+    from upswing.figures import NAMES
+
+    return list(NAMES)
+
+
+class _Figure(Job):
+    """Its help lists the figures, which are imported for nothing else than help and drawing."""
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        self.epilog = f"The figures: {', '.join(_figures())}."
+        super().format_help(ctx, formatter)
+
+
+@panel.subcommand("figure", cls=_Figure)
+def figure(
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="FIGURE",
+            help="5 to 11, as in the thesis, or a name from the list below.",
+            autocompletion=_figures,
+        ),
+    ],
+    positional: Positional = None,
+    results: Named = None,
+) -> None:
+    """Draw a figure from the results, as SVG and PNG."""
+    from upswing.figures import draw
+
+    draw(name, results_folder(results, positional))
+
+
+@panel.subcommand(
+    "browse",
+    epilog="A FILTER is task=, architecture=, alpha=, seed= (0,3 or 0..4), claim=C13, or the id "
+    "of a run, a cell or a task; several must all be fulfilled.",
+)
+def browse(
+    filters: Annotated[
+        list[str] | None, typer.Argument(metavar="FILTER", help="Which runs; all if none is given.")
+    ] = None,
+    results: Named = None,
+    web: Annotated[
+        bool, typer.Option("--web", help="Serve a page, where there is no display.")
+    ] = False,
+    only_say: Annotated[
+        bool, typer.Option("--print", help="Only say what would be opened.")
+    ] = False,
+    port: Annotated[int, typer.Option(help="Of the catalog.")] = 9871,
+    web_port: Annotated[int, typer.Option(help="Of the page.")] = 9872,
+    report_port: Annotated[
+        int, typer.Option(help="Of the report; a free one if this is in use.")
+    ] = 9873,
+) -> None:
+    """Browse the recordings of all runs, or of some."""
+    from upswing.recordings.catalog import catalog, show
+    from upswing.recordings.lending import PAGE, lending
+    from upswing.recordings.selection import select
+    from upswing.runs.results import Results
+
+    folder = results_folder(results)
+    found = Results(folder)
+    runs = select(found, filters or ())
+    if only_say:
+        print("\n".join(str(folder / recording) for recording in runs["recording"]))
+        return
+    with catalog(found, runs, port) as served, lending(found, report_port) as lent:
+        if (folder / PAGE).exists():
+            print(f"the report, in which every run opens: {lent.page}", flush=True)
+        show(served, web, web_port)

@@ -1,0 +1,82 @@
+"""Keep a folder of results whole, and what is generated from results and code up to date."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from upswing.cli.options import TEMPLATES, Named, Positional, Templates, results_folder
+from upswing.cli.panel import Panel
+
+panel = Panel("Maintain")
+
+
+@panel.subcommand("doctor")
+def doctor(positional: Positional = None, results: Named = None) -> int:
+    """Check that a folder of results is whole; says what to delete where it is not."""
+    from upswing.analysis.doctor import examine
+    from upswing.cli.shown.folders import print_diagnosis
+
+    diagnosis = examine(results_folder(results, positional))
+    print_diagnosis(diagnosis)
+    return 1 if diagnosis.findings else 0
+
+
+@panel.subcommand("clean-orphans")
+def clean_orphans(positional: Positional = None, results: Named = None) -> None:
+    """Delete the files of runs that are not, or no longer, in the study."""
+    from upswing.analysis.doctor import delete_orphans
+
+    for path in delete_orphans(results_folder(results, positional)):
+        print(f"deleted {path}")
+
+
+@panel.subcommand("readme")
+def readme(
+    positional: Positional = None,
+    results: Named = None,
+    templates: Templates = TEMPLATES,
+    readme: Annotated[Path, typer.Option(metavar="FILE", help="The file that is renewed.")] = Path(
+        "README.md"
+    ),
+) -> None:
+    """Renew what the README shows of the results."""
+    from upswing.report.readme import write_readme
+
+    write_readme(results_folder(results, positional), templates, readme)
+
+
+@panel.subcommand("screenshots")
+def screenshots(
+    positional: Positional = None,
+    results: Named = None,
+    into: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Where the pictures are put.")
+    ] = Path("docs/pictures"),
+    run: Annotated[
+        str, typer.Option(help="The run that is shown.")
+    ] = "full-control/table/alpha-0.01/seed-4",
+    task: Annotated[str, typer.Option(help="The task whose runs are compared.")] = "full-control",
+) -> None:
+    """Take the README's pictures of the recordings, in a viewer without a screen."""
+    from upswing.recordings.screenshots import take_screenshots
+    from upswing.runs.results import Results
+
+    take_screenshots(Results(results_folder(results, positional)), into, run, task)
+
+
+@panel.subcommand("schema")
+def schema() -> None:
+    """Print the JSON schema of a configuration."""
+    from upswing.study.json_schema import schema
+
+    print(json.dumps(schema(), indent=2, ensure_ascii=False))
+
+
+@panel.subcommand("keys")
+def keys() -> None:
+    """Print what every key of a configuration means, in Markdown."""
+    from upswing.study.schema import reference
+
+    print(reference(), end="")

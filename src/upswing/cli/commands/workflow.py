@@ -1,0 +1,161 @@
+"""What the rules of the workflow call, to make one file or several; by hand, to repeat a job."""
+
+from typing import Annotated
+
+import typer
+
+from upswing.cli.options import (
+    CLAIMS,
+    SWEEPS,
+    TEMPLATES,
+    Claims,
+    Named,
+    Positional,
+    StudyText,
+    Sweeps,
+    Templates,
+    results_folder,
+)
+from upswing.cli.panel import Job, Panel
+
+panel = Panel("Called by the workflow")
+
+
+@panel.subcommand("study", cls=Job)
+def study(text: StudyText, results: Named = None) -> None:
+    """Keep a study's configuration beside its results."""
+    from upswing.runs.study_file import write_study
+
+    write_study(text, results_folder(results))
+
+
+@panel.subcommand("train")
+def train(
+    texts: Annotated[
+        list[str],
+        typer.Argument(metavar="SPEC", help="A specification in JSON, as a run's log shows it."),
+    ],
+    results: Named = None,
+) -> None:
+    """Learn the runs of specifications and store them."""
+    from upswing.study.spec import parse
+
+    specs = [parse(text) for text in texts]  # all of them, before anything is written
+    from upswing.runs.train import train
+
+    for spec in specs:
+        train(spec, results_folder(results))
+
+
+@panel.subcommand("tables", cls=Job)
+def tables(positional: Positional = None, results: Named = None) -> None:
+    """Write tables/runs.parquet and tables/cells.parquet."""
+    from upswing.analysis.aggregate import write_tables
+    from upswing.runs.study_file import read_study
+    from upswing.study.matrix import Matrix
+
+    folder = results_folder(results, positional)
+    write_tables(folder, Matrix(read_study(folder)))
+
+
+@panel.subcommand("comparisons", cls=Job)
+def comparisons(positional: Positional = None, results: Named = None) -> None:
+    """Write the recordings that compare runs."""
+    from upswing.recordings.comparison import write_comparisons
+    from upswing.runs.results import Results
+
+    for path in write_comparisons(Results(results_folder(results, positional))):
+        print(path)
+
+
+@panel.subcommand("viewer", cls=Job)
+def viewer(
+    positional: Positional = None, results: Named = None, templates: Templates = TEMPLATES
+) -> None:
+    """Write report/viewer: the report's recordings, to open without a server."""
+    from upswing.recordings.viewer import write_viewer
+    from upswing.runs.results import Results
+
+    for name in write_viewer(Results(results_folder(results, positional)), templates):
+        print(name)
+
+
+@panel.subcommand("report", cls=Job)
+def report(
+    positional: Positional = None, results: Named = None, templates: Templates = TEMPLATES
+) -> None:
+    """Write report/index.html."""
+    from upswing.report.page import write_report
+
+    write_report(results_folder(results, positional), templates)
+
+
+@panel.subcommand("bound", cls=Job)
+def bound(positional: Positional = None, results: Named = None) -> None:
+    """Say by dynamic programming how good anything can be (tables/bound.parquet)."""
+    from upswing.optimal.bound import write_bound
+
+    write_bound(results_folder(results, positional))
+
+
+@panel.subcommand("changes", cls=Job)
+def changes(positional: Positional = None, results: Named = None) -> None:
+    """Write tables/changes.parquet: what each change to the thesis buys."""
+    from upswing.analysis.ablation import write_changes
+    from upswing.cli.shown.beyond import print_changes
+
+    print_changes(write_changes(results_folder(results, positional)))
+
+
+@panel.subcommand("shortest", cls=Job)
+def shortest(text: StudyText, results: Named = None) -> None:
+    """Search for what succeeds every time, and how soon."""
+    from upswing.analysis.search import write_shortest
+    from upswing.cli.shown.beyond import print_chosen
+    from upswing.runs.study_file import parse_study
+
+    print_chosen(write_shortest(parse_study(text, "study"), results_folder(results)))
+
+
+@panel.subcommand("sweep", cls=Job)
+def sweep(
+    name: Annotated[str, typer.Argument(metavar="SWEEP", help="Its name in the file of sweeps.")],
+    group: Annotated[str, typer.Argument(help="The name of the group of readings.")],
+    positional: Positional = None,
+    results: Named = None,
+    sweeps: Sweeps = SWEEPS,
+) -> None:
+    """Run cells of the study under a group of other readings and keep the measures."""
+    from upswing.runs.study_file import read_study
+    from upswing.runs.sweep import write_group
+    from upswing.study.errors import BadInput, near
+    from upswing.study.sweeps import load_sweeps
+
+    folder = results_folder(results, positional)
+    study = read_study(folder)
+    known = load_sweeps(sweeps, study)
+    if name not in known:
+        raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
+    print(write_group(folder, study, name, known[name], group))
+
+
+@panel.subcommand("readings", cls=Job)
+def readings(
+    positional: Positional = None,
+    results: Named = None,
+    sweeps: Sweeps = SWEEPS,
+    claims: Claims = CLAIMS,
+) -> None:
+    """Judge every claim under every reading of the sweeps, and choose the networks' default."""
+    from upswing.analysis.robustness.results import write_readings
+    from upswing.cli.shown.readings import print_robustness
+    from upswing.figures.readings import draw_readings
+    from upswing.runs.study_file import read_study
+    from upswing.study.claims import load_claims
+    from upswing.study.sweeps import load_sweeps
+
+    folder = results_folder(results, positional)
+    study = read_study(folder)
+    swept, judged = load_sweeps(sweeps, study), load_claims(claims, study)
+    print_robustness(write_readings(folder, swept, judged))
+    draw_readings(folder, swept)

@@ -1,0 +1,61 @@
+"""The verdicts on the claims."""
+
+from collections import Counter
+from typing import Any
+
+import pandas as pd
+
+from upswing.cli.terminal import print_table, say
+from upswing.study.claims import words_of
+
+COLOURS = {
+    "reproduced": "green",
+    "partly": "yellow",
+    "at least partly": "yellow",
+    "inconclusive": "magenta",
+    "not reproduced": "red",
+    "not in this study": "bright_black",
+}
+HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "the thesis says")
+
+
+def print_verdicts(verdicts: pd.DataFrame, details: bool = False) -> None:
+    """Print a row for each claim, below it what more is known of it, and how many have which verdict."""
+    found = [{str(key): value for key, value in row.items()} for row in verdicts.to_dict("records")]
+    print_table(
+        HEADER,
+        [_cells(row) for row in found],
+        right=("n",),
+        words=[row["statement"] for row in found],
+        below=[_details(row) for row in found] if details else (),
+        colours=COLOURS,
+    )
+    shown = Counter(words_of(row["verdict"], row["could_be_better"]) for row in found)
+    counts = ", ".join(f"{shown[each]} {each}" for each in COLOURS if shown[each])
+    more = "" if details else "; --details says what was measured"
+    say(f"{len(found)} claims: {counts}{more}")
+
+
+def _cells(row: dict[str, Any]) -> tuple[str, ...]:
+    estimate = f"{row['estimate']:.3g} [{row['low']:.3g}, {row['high']:.3g}]"
+    return (
+        row["claim"],
+        words_of(row["verdict"], row["could_be_better"]),
+        estimate if row["n"] else "no runs",
+        row["threshold"],
+        str(row["n"]),
+    )
+
+
+def _details(row: dict[str, Any]) -> list[str]:
+    """What is known of a claim beyond its row: each line is understood without the others."""
+    parts = f", the weakest of {row['parts']} comparisons" if row["parts"] > 1 else ""
+    lines = {
+        "where it says so": row["section"],
+        "measured": f"{row['measure']}{parts}",
+        "cells": row["cells"],
+        "interval": row["method"],
+        "p (Holm)": f"{row['p_holm']:.2g}",
+        "note": row["note"],
+    }
+    return [f"{name}: {text}" for name, text in lines.items() if text]
