@@ -42,7 +42,9 @@ def test_verdicts_take_two_lines_or_so_in_80_columns(folder):
     assert sum(line.startswith("C") for line in lines) == len(CLAIMS)
     assert not BOXES.search(shown)
     assert ANSI.search(shown)
-    assert not ANSI.search(in_terminal(80, "verdicts", folder, NO_COLOR="1"))
+    plain = in_terminal(80, "verdicts", folder, NO_COLOR="1")
+    # Where colorama is installed, numba has it reset the terminal when the program ends.
+    assert not ANSI.search(plain.removesuffix("\x1b[0m"))
     words = " ".join(ANSI.sub("", shown).split())
     for claim in CLAIMS.values():
         assert claim.statement in words
