@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from upswing.analysis import statistics
+from upswing.analysis import statistics, survival
 from upswing.analysis.beyond_tables import CHANGES
 from upswing.optimal.tables import BOUND, OF_THE_BOUND
 from upswing.runs.files.ledger import seal
@@ -53,7 +53,7 @@ def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any
     rate = statistics.share(int(success.sum()), len(success))
     upright = statistics.mean(runs["upright_share"].to_numpy(float))
     times = [None if pd.isna(step) else float(step) for step in runs["first_stable_step"]]
-    median, earliest, latest = statistics.median_time(times, horizon)
+    median, earliest, latest = survival.median_time(times, horizon)
     return {
         "cell": spec.cell,
         "task": spec.task.name,

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from upswing.analysis import statistics
+from upswing.analysis import statistics, survival
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import CELLS, MEASURES, NULLABLE, RUNS, write_table
 from upswing.runs.files.trajectory import read_metadata
@@ -77,7 +77,7 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
             "runs_upright": int((group["upright_share"] >= SUCCESS).sum()),
         }
         times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
-        middle = statistics.median_time(times, float(row["steps"]))
+        middle = survival.median_time(times, float(row["steps"]))
         for name, value in zip(("median", "low", "high"), middle, strict=True):
             row[f"first_stable_step_{name}"] = value
         for measure in MEASURES:

@@ -5,7 +5,6 @@ From scipy where it has them. Every interval is one of 95 % for the estimate, un
 same interval.
 """
 
-import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import combinations
@@ -258,57 +257,9 @@ def _resamples(n: int) -> NDArray[np.int64]:
     return np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
 
 
-def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Estimate:
-    """The share that got there by ``limit``: Kaplan–Meier, with a log-log interval.
-
-    Args:
-        times: when each run got there; None for a run that had not by ``horizon``, and is censored.
-        limit: the time asked about.
-        horizon: how long every run was watched.
-    """
-    n = len(times)
-    if not n:
-        return no_runs()
-    reached = sum(time is not None and time <= limit for time in times)
-    if reached in (0, n):  # the log-log interval has no width there; Wilson's has
-        return share(reached, n)._replace(method="Kaplan–Meier (Wilson at 0 and 1)")
-    survival, interval = _survival(times, horizon)
-    value, low, high = (
-        1 - float(curve.evaluate(limit)) for curve in (survival, interval.high, interval.low)
-    )
-    tail = binomial_tail(reached / n, n)  # nobody is censored before the limit
-    return Estimate(value, low, high, n, "Kaplan–Meier, log-log", tail)
-
-
 def _z() -> float:
     """The quantile of the normal distribution for an interval of ``CONFIDENCE``."""
     return float(stats.norm.ppf((1 + CONFIDENCE) / 2))
-
-
-def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, float, float]:
-    """The median time and its interval by Kaplan–Meier; infinite where half never got there."""
-    if not any(time is not None for time in times):
-        return np.inf, np.inf, np.inf
-    survival, interval = _survival(times, horizon)
-
-    def halved(curve: Any) -> float:
-        below = np.flatnonzero(np.asarray(curve.probabilities) <= 0.5)
-        return float(curve.quantiles[below[0]]) if len(below) else np.inf
-
-    return halved(survival), halved(interval.low), halved(interval.high)
-
-
-def _survival(times: Sequence[float | None], horizon: float) -> tuple[Any, Any]:
-    """Scipy's survival function of times that are censored at ``horizon``, and its interval."""
-    data = stats.CensoredData(
-        uncensored=[time for time in times if time is not None],
-        right=[horizon for time in times if time is None],
-    )
-    survival = stats.ecdf(data).sf
-    with warnings.catch_warnings():
-        # Where all have got there the interval is undefined; nothing is asked of it there.
-        warnings.simplefilter("ignore", RuntimeWarning)
-        return survival, survival.confidence_interval(CONFIDENCE, method="log-log")
 
 
 def spread(values: Sample) -> tuple[float, float]:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from upswing.analysis import statistics
+from upswing.analysis import statistics, survival
 from upswing.analysis.contraction import PROBLEMS, contracts
 from upswing.analysis.statistics import Estimate
 from upswing.runs.files.ledger import seal
@@ -134,7 +134,7 @@ def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
         case "share_by":
             times = [None if pd.isna(t) else float(t) for t in _column(groups[0], part.measure)]
             horizon = float(groups[0]["steps"].iloc[0])
-            return statistics.share_by(times, float(part.limit or 0), horizon)
+            return survival.share_by(times, float(part.limit or 0), horizon)
         case "location":
             known = _column(groups[0], part.measure).dropna().to_numpy()
             return statistics.LOCATIONS[part.statistic](known)

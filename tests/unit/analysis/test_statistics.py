@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from upswing.analysis import statistics
+from upswing.analysis import statistics, survival
 from upswing.analysis.statistics import Estimate
 
 TRIALS = 1_000
@@ -93,7 +93,7 @@ def test_coverage_of_a_share_by_a_time():
         times = [t if t < 2 else None for t in rng.exponential(size=30)]
         return (times,)
 
-    found = coverage(lambda times: statistics.share_by(times, 1.0, 2.0), draw, truth)
+    found = coverage(lambda times: survival.share_by(times, 1.0, 2.0), draw, truth)
     assert ROOM[0] < found < 0.985
 
 
@@ -122,7 +122,7 @@ def test_coverage_of_the_median_time():
     inside = 0
     for _ in range(TRIALS):
         times = [t if t < 1.1 else None for t in rng.exponential(size=30)]
-        _, low, high = statistics.median_time(times, 1.1)
+        _, low, high = survival.median_time(times, 1.1)
         inside += low <= np.log(2) <= high
     assert ROOM[0] < inside / TRIALS < 0.99
 
@@ -178,18 +178,18 @@ def test_ties_count_half():
 
 def test_kaplan_meier_is_the_plain_share_when_nobody_left_early():
     times = [100.0, 200.0, 300.0, None, None, None, None, None]
-    assert statistics.share_by(times, 250, 1_000).value == pytest.approx(2 / 8)
-    assert statistics.share_by(times, 1_000, 1_000).value == pytest.approx(3 / 8)
-    assert statistics.share_by([None] * 4, 500, 1_000).value == 0
-    assert statistics.share_by([1.0] * 4, 500, 1_000).value == 1
+    assert survival.share_by(times, 250, 1_000).value == pytest.approx(2 / 8)
+    assert survival.share_by(times, 1_000, 1_000).value == pytest.approx(3 / 8)
+    assert survival.share_by([None] * 4, 500, 1_000).value == 0
+    assert survival.share_by([1.0] * 4, 500, 1_000).value == 1
 
 
 def test_median_time_with_runs_that_never_got_there():
-    middle, low, high = statistics.median_time([1, 2, 3, 4, 5, 6, 7, None, None], 10)
+    middle, low, high = survival.median_time([1, 2, 3, 4, 5, 6, 7, None, None], 10)
     assert middle == 5
     assert low < 5 < high
-    assert statistics.median_time([1, None, None, None], 10)[0] == np.inf
-    assert statistics.median_time([None, None], 10) == (np.inf, np.inf, np.inf)
+    assert survival.median_time([1, None, None, None], 10)[0] == np.inf
+    assert survival.median_time([None, None], 10) == (np.inf, np.inf, np.inf)
 
 
 def test_holm_by_hand():
@@ -233,7 +233,7 @@ def test_the_p_value_of_a_difference_looks_at_the_side_of_the_threshold():
 
 
 def test_no_runs_tell_nothing():
-    for found in (statistics.share(0, 0), statistics.mean([]), statistics.share_by([], 1, 2)):
+    for found in (statistics.share(0, 0), statistics.mean([]), survival.share_by([], 1, 2)):
         assert isinstance(found, Estimate)
         assert found.n == 0
         assert found.p_value(0.5, True) == 1
