@@ -163,6 +163,7 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("sweep", help="its name in the file of sweeps")
     added.add_argument("group", help="the name of the group of readings")
     added.add_argument("results", nargs="?", type=Path, default=Path("results"))
+    added.add_argument("--study", help="the study in JSON (default: the one the folder is of)")
     added.add_argument("--sweeps", type=Path, default=Path("config/readings.yaml"))
     added.set_defaults(call=_sweep, repeatable=True)
 
@@ -309,12 +310,12 @@ def _report(options: argparse.Namespace) -> None:
 
 
 def _sweep(options: argparse.Namespace) -> None:
-    from upswing.runs.study_file import read_study
+    from upswing.runs.study_file import parse_study, read_study
     from upswing.runs.sweep import write_group
     from upswing.study.errors import near
     from upswing.study.sweeps import load_sweeps
 
-    study = read_study(options.results)
+    study = parse_study(options.study, "study") if options.study else read_study(options.results)
     sweeps = load_sweeps(options.sweeps, study)
     if options.sweep not in sweeps:
         raise BadInput(
