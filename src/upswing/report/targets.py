@@ -28,8 +28,8 @@ PICTURE = ("svg", "png", "json")
 OF_THE_PAGE = ("report/index.html", "report/runs.csv", "report/evidence.csv")
 VIEWER = "report/viewer"
 
-ASKING_FOR_READINGS = "readings"
-"""The target, a rule of the workflow, that judges the claims under other readings."""
+ASKING_FOR_READINGS = ("readings", "with_readings")
+"""The targets, rules of the workflow, by which the claims are judged under other readings."""
 
 SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
 """The tables of the sweeps over readings, which the page shows once they have been run."""
@@ -173,7 +173,7 @@ class Targets:
         Args:
             asked: the targets of this run of the workflow, rules or files.
         """
-        coming = not {ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
         swept = [
             p for p in self._below(*SWEPT) if (coming and p in self.readings) or Path(p).exists()
         ]

@@ -52,7 +52,11 @@ def test_the_page_and_the_viewer_stand_where_they_are_written():
 def test_the_page_shows_sweeps_that_have_been_run_or_are_asked_for(tmp_path):
     files = of(tmp_path)
     assert not below(tmp_path, files.of_page([])) & set(SWEPT)
-    for asked_for in ("readings", f"{tmp_path}/tables/robust.parquet"):  # no sweep selects
+    for asked_for in (
+        "readings",
+        "with_readings",
+        f"{tmp_path}/tables/robust.parquet",
+    ):  # no sweep selects
         assert below(tmp_path, files.of_page(["all", asked_for])) & set(SWEPT) == set(SWEPT[1:])
     touch(tmp_path / SWEPT[2])
     assert below(tmp_path, files.of_page(["all"])) & set(SWEPT) == {SWEPT[2]}
