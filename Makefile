@@ -69,11 +69,10 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 
 .PHONY: readings
 readings: install ## Judge every claim under other readings too (half an hour on 2 cores; goes on where it stopped)
-	@$(call run,config/config.yaml) -- study
-	@$(SNAKEMAKE) --configfile config/config.yaml -- readings
-	@$(SNAKEMAKE) --configfile config/config.yaml
+	@$(call run,config/config.yaml) -- with_readings
 	@echo "The report is at results/report/index.html#robust"
 
+# Two calls: a call of Snakemake has one configuration, and the page that shows the chapter is of another study.
 .PHONY: beyond
 beyond: install ## Run what goes beyond the thesis (half an hour on 2 cores), into results/beyond
 	@$(call run,config/beyond.yaml)

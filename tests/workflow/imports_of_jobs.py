@@ -129,7 +129,16 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
         for group in groups:
             yield (
                 f"sweep {name}",
-                subcommand("sweep", name, group, results, "--sweeps", str(readings)),
+                subcommand(
+                    "sweep",
+                    name,
+                    group,
+                    results,
+                    "--study",
+                    str(told["study"]),
+                    "--sweeps",
+                    str(readings),
+                ),
             )
     if told["sweeps"]:
         yield (

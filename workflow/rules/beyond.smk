@@ -2,6 +2,8 @@
 
 
 rule bound:
+    input:
+        no_file,
     output:
         f"{RESULTS}/{BOUND}",
         f"{RESULTS}/{MAPS}",
@@ -21,7 +23,7 @@ rule changes:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/{BOUND}",
     output:
-        f"{RESULTS}/{CHANGED}",
+        f"{RESULTS}/{CHANGES}",
     log:
         f"{RESULTS}/logs/changes.log",
     benchmark:
@@ -35,6 +37,8 @@ rule changes:
 rule shortest:
     # The study is given in the command and is no input: a new cell of it changes no search. What does stands
     # in the params. (An ancient input would do, but Snakemake looks at no params while it is to be made anew.)
+    input:
+        no_file,
     output:
         f"{RESULTS}/{SHORTEST}",
         f"{RESULTS}/{CHOSEN}",

@@ -1,28 +1,10 @@
 # Figures, one job each.
 
 
-def figure_inputs(wildcards):
-    cells = FIGURES[wildcards.figure].cells or MATRIX.cells
-    runs = [
-        MATRIX.cells[cell].run(block.seeds[0])
-        for cell in cells
-        for block in MATRIX.blocks
-    ]
-    tables = [
-        f"{RESULTS}/{table}"
-        for table in FIGURES[wildcards.figure].tables
-        if table not in (SHORTEST, CHOSEN) or STUDY.search
-    ]
-    kinds = FIGURES[wildcards.figure].files
-    return tables + [
-        f"{RESULTS}/{file_of(run, kind)}" for run in runs for kind in kinds
-    ]
-
-
 rule figure:
     input:
         f"{RESULTS}/tables/runs.parquet",
-        figure_inputs,
+        lambda wildcards: FILES.of_figure(wildcards.figure),
     output:
         report(
             f"{RESULTS}/figures/{{figure}}.svg",

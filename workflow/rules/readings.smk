@@ -1,16 +1,10 @@
 # Sweeps over readings: one job for a group of them.
 
-SWEPT = {
-    f"{name}/{group.name}": (sweep, group)
-    for name, sweep in SWEEPS.items()
-    for group in groups(sweep, STUDY)
-}
-
 
 rule sweep:
+    # The study is given in the command and is no input (as in beyond.smk): a new seed or cell changes no sweep.
     input:
-        # Its content counts, in the params; a new seed of the study changes no sweep.
-        ancient(f"{RESULTS}/study.json"),
+        no_file,
     output:
         f"{RESULTS}/readings/{{sweep}}/{{group}}.parquet",
     log:
@@ -18,31 +12,20 @@ rule sweep:
     benchmark:
         f"{RESULTS}/benchmarks/sweep/{{sweep}}/{{group}}.tsv"
     params:
-        content=lambda wildcards: content_of(
-            SWEEPS[wildcards.sweep],
-            STUDY,
-            SWEPT[f"{wildcards.sweep}/{wildcards.group}"][1],
-            MATRIX.cells,
+        content=lambda wildcards: FILES.content_of_sweep(
+            f"{wildcards.sweep}/{wildcards.group}"
         ),
         code=lambda wildcards: jobs.sweep(SWEEPS[wildcards.sweep], STUDY).fingerprint,
     shell:
-        "upswing sweep {wildcards.sweep:q} {wildcards.group:q} {RESULTS:q} > {log:q} 2>&1"
+        "upswing sweep {wildcards.sweep:q} {wildcards.group:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
 
 
 rule readings:
     input:
         f"{RESULTS}/study.json",
-        expand(f"{RESULTS}/readings/{{swept}}.parquet", swept=SWEPT),
+        FILES.swept,
     output:
-        f"{RESULTS}/tables/selection.parquet",
-        f"{RESULTS}/tables/readings.parquet",
-        f"{RESULTS}/tables/decisive.parquet",
-        f"{RESULTS}/tables/robust.parquet",
-        expand(
-            f"{RESULTS}/figures/readings-{{sweep}}.{{kind}}",
-            sweep=[name for name in SWEEPS if name != "selection"],
-            kind=["svg", "png"],
-        ),
+        FILES.readings,
     log:
         f"{RESULTS}/logs/readings.log",
     benchmark:

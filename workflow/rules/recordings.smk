@@ -10,10 +10,7 @@ rule comparisons:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/verdicts.parquet",
     output:
-        expand(
-            f"{RESULTS}/recordings/{{name}}.rrd",
-            name=comparison_names(CLAIMS, MATRIX.cells),
-        ),
+        FILES.comparisons,
     log:
         f"{RESULTS}/logs/comparisons.log",
     benchmark:
@@ -29,8 +26,8 @@ rule viewer:
         f"{RESULTS}/study.json",
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/verdicts.parquet",
-        expand(f"{RESULTS}/figures/{{figure}}.json", figure=DRAWABLE),
-        rules.comparisons.output,
+        FILES.pictures("json"),
+        FILES.comparisons,
         "report/viewer.html",
     output:
         directory(f"{RESULTS}/report/viewer"),

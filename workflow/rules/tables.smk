@@ -2,6 +2,8 @@
 
 
 rule study:
+    input:
+        no_file,
     output:
         f"{RESULTS}/study.json",
     log:

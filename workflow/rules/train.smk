@@ -5,6 +5,8 @@ for BLOCK in MATRIX.blocks:
     rule:
         name:
             f"train_{BLOCK.name}"
+        input:
+            no_file,
         output:
             expand(
                 f"{RESULTS}/runs/{{{{task}}}}/{{{{architecture}}}}/alpha-{{{{alpha}}}}/seed-{{seed}}.{{kind}}",

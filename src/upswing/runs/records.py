@@ -20,25 +20,27 @@ UNKNOWN = "unknown"
 """The param of a file whose making is forgotten; no job asks for it, so the file is made again."""
 
 
-def restore(results: str, matrix: Matrix, cheap: Sequence[str], dear: Sequence[str]) -> list[str]:
-    """Mend Snakemake's records of a study, before it plans.
+def restore(results: str, matrix: Matrix, quick: Sequence[str], slow: Sequence[str]) -> list[str]:
+    """Mend Snakemake's records of a study, before it looks at them.
 
     Args:
         results: the folder of results, as the rules have it.
         matrix: the runs that are asked for.
-        cheap: outputs of other jobs that are made again where there is no record of them.
-        dear: outputs of other jobs that are left as they are.
+        quick: outputs of other jobs that are made again where there is no record of them.
+        slow: outputs of other jobs that are left as they are.
 
     Returns:
         The files that are taken as they are although nobody knows what they were made from.
     """
+    if not Path(results).is_dir():
+        return []
     records = Records()
     if records.locked:  # another Snakemake is at work; this one will say so
         return []
-    for path in cheap:
+    for path in quick:
         if Path(path).exists() and records.params(path) is None:
             records.write(path, "forgotten", [UNKNOWN])
-    unknown = [path for path in dear if Path(path).exists() and records.params(path) is None]
+    unknown = [path for path in slow if Path(path).exists() and records.params(path) is None]
     for path in unknown:
         records.forget(path)
     for cell in matrix.cells:
@@ -46,6 +48,15 @@ def restore(results: str, matrix: Matrix, cheap: Sequence[str], dear: Sequence[s
             job = matrix.job(cell, block)
             unknown += _restore_job(results, f"train_{block.name}", job, records)
     return unknown
+
+
+def taken_as_they_are(results: str, unknown: Sequence[str]) -> str:
+    """What to say of files of which nobody knows what they were made from; there is at least one."""
+    return (
+        f"There is no record of how {len(unknown)} files in {results} were made, {unknown[0]} first: "
+        "they are taken as they are, whatever the code or the configuration has become since. "
+        "If unsure, delete them; they will be made again"
+    )
 
 
 def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iterator[str]:

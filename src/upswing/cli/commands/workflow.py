@@ -123,20 +123,23 @@ def sweep(
     group: Annotated[str, typer.Argument(help="The name of the group of readings.")],
     positional: Positional = None,
     results: Named = None,
+    study: Annotated[
+        str, typer.Option(metavar="JSON", help="The study; without it, the one the folder is of.")
+    ] = "",
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Run cells of the study under a group of other readings and keep the measures."""
-    from upswing.runs.study_file import read_study
+    from upswing.runs.study_file import parse_study, read_study
     from upswing.runs.sweep import write_group
     from upswing.study.errors import BadInput, near
     from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
-    study = read_study(folder)
-    known = load_sweeps(sweeps, study)
+    asked = parse_study(study, "study") if study else read_study(folder)
+    known = load_sweeps(sweeps, asked)
     if name not in known:
         raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
-    print(write_group(folder, study, name, known[name], group))
+    print(write_group(folder, asked, name, known[name], group))
 
 
 @panel.subcommand("readings", cls=Job)

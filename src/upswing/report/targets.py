@@ -1,0 +1,209 @@
+"""Which files a study comes to, and which of them its figures and its page are made from.
+
+Nothing here looks at the disk, but for the files that a page shows only where they are there.
+"""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from upswing.analysis.beyond_tables import CHANGES, CHOSEN, FOLDER, SHORTEST
+from upswing.analysis.robustness.tables import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.figures import FIGURES, NAMES, drawable
+from upswing.optimal.tables import BOUND, MAPS
+from upswing.recordings.names import comparison_names
+from upswing.runs.files.tables import CELLS, EVIDENCE, RUNS, VERDICTS
+from upswing.runs.study_file import FILE as STUDY
+from upswing.study.claims import Claim
+from upswing.study.config import Study
+from upswing.study.ids import file_of
+from upswing.study.matrix import Matrix
+from upswing.study.sweeps import SELECTION as CHOOSING
+from upswing.study.sweeps import Group, Sweep, content_of, groups
+
+PICTURE = ("svg", "png", "json")
+"""The endings of a figure's files: the picture twice, and its words."""
+
+OF_THE_PAGE = ("report/index.html", "report/runs.csv", "report/evidence.csv")
+VIEWER = "report/viewer"
+
+ASKING_FOR_READINGS = ("readings", "with_readings")
+"""The targets, rules of the workflow, by which the claims are judged under other readings."""
+
+SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
+"""The tables of the sweeps over readings, which the page shows once they have been run."""
+
+CHAPTER = (CHANGES, BOUND, CHOSEN, "figures/bound.svg", "figures/changes.svg")
+"""What the page shows of the chapter beyond the thesis, once that has been run."""
+
+TEMPLATES = ("*.j2", "*.css", "*.js", "*.yaml", "parts/*", "drawings/*")
+
+
+def templates(folder: Path) -> list[str]:
+    """The project's own files that the page is made from: templates, style, script, texts, drawings."""
+    return sorted(str(path) for pattern in TEMPLATES for path in folder.glob(pattern))
+
+
+@dataclass(frozen=True)
+class Targets:
+    """The files of a study, each as its path from the folder that the workflow runs in."""
+
+    study: Study
+    claims: Mapping[str, Claim]
+    sweeps: Mapping[str, Sweep]
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """The study's cells and runs."""
+        return Matrix(self.study)
+
+    @cached_property
+    def changes(self) -> bool:
+        """Whether experiments have a title: changes to the thesis, held against what is possible."""
+        return any(experiment.title for experiment in self.study.experiments)
+
+    @cached_property
+    def figures(self) -> list[str]:
+        """The names of the figures that can be drawn, the study having all cells that they show.
+
+        Raises:
+            BadInput: a figure that the study names itself shows a cell that it does not have.
+        """
+        return drawable(self.matrix.cells, self.changes, self.study.figures)
+
+    @cached_property
+    def shown_figures(self) -> list[str]:
+        """The names of the figures that the page shows or says are missing."""
+        return list(dict.fromkeys((*NAMES, *self.study.figures)))
+
+    @cached_property
+    def groups(self) -> dict[str, tuple[Sweep, Group]]:
+        """Every job of the sweeps by ``sweep/group``."""
+        return {
+            f"{name}/{group.name}": (sweep, group)
+            for name, sweep in self.sweeps.items()
+            for group in groups(sweep, self.study)
+        }
+
+    @cached_property
+    def tables(self) -> list[str]:
+        """The tables of every study."""
+        return self._below(RUNS, CELLS, VERDICTS, EVIDENCE)
+
+    @cached_property
+    def comparisons(self) -> list[str]:
+        """The recordings that compare runs."""
+        names = comparison_names(self.claims, self.matrix.cells)
+        return self._below(*(f"recordings/{name}.rrd" for name in names))
+
+    @cached_property
+    def beyond(self) -> list[str]:
+        """The tables of a study of changes; none of another."""
+        search = (SHORTEST, CHOSEN) if self.study.search else ()
+        return self._below(BOUND, MAPS, CHANGES, *search) if self.changes else []
+
+    @cached_property
+    def swept(self) -> list[str]:
+        """The table of every job of the sweeps."""
+        return self._below(*(f"readings/{job}.parquet" for job in self.groups))
+
+    @cached_property
+    def readings(self) -> list[str]:
+        """What the sweeps come to: tables, and a figure of each sweep that judges claims."""
+        judging = [name for name in self.sweeps if name != CHOOSING]
+        pictures = [
+            f"figures/readings-{name}.{kind}" for name in judging for kind in ("svg", "png")
+        ]
+        tables = [table for table in SWEPT if table != SELECTION or CHOOSING in self.sweeps]
+        return self._below(*tables, *pictures)
+
+    @cached_property
+    def page(self) -> list[str]:
+        """The page, and the tables beside it."""
+        return self._below(*OF_THE_PAGE)
+
+    @cached_property
+    def everything(self) -> list[str]:
+        """What a study is run for, besides the files of its runs (``Matrix.wanted``)."""
+        return [
+            self.page[0],
+            *self._below(VIEWER),
+            *self.tables,
+            *self.pictures(*PICTURE),
+            *self.comparisons,
+            *self.beyond,
+        ]
+
+    @cached_property
+    def quick(self) -> list[str]:
+        """What follows training and takes seconds: made again where nobody knows how it was made."""
+        changes = self._below(CHANGES) if self.changes else []
+        return [
+            *self._below(STUDY, VIEWER),
+            *self.tables,
+            *self.comparisons,
+            *self.pictures(*PICTURE),
+            *self.page,
+            *changes,
+        ]
+
+    @cached_property
+    def slow(self) -> list[str]:
+        """What takes long besides training: left as it is where nobody knows how it was made."""
+        readings = self.readings if self.groups else []
+        return [*self.swept, *readings, *(table for table in self.beyond if CHANGES not in table)]
+
+    def pictures(self, *kinds: str) -> list[str]:
+        """The files of all figures that have one of these endings."""
+        return self._below(*(f"figures/{name}.{kind}" for name in self.figures for kind in kinds))
+
+    def of_figure(self, name: str) -> list[str]:
+        """What a figure is drawn from, besides the table of runs.
+
+        A file of the first run of each job stands for all of them, which are written together.
+        """
+        figure = FIGURES[name]
+        runs = [
+            self.matrix.cells[cell].run(block.seeds[0])
+            for cell in figure.cells or self.matrix.cells
+            for block in self.matrix.blocks
+        ]
+        return self._below(
+            *figure.tables, *(file_of(run, kind) for run in runs for kind in figure.files)
+        )
+
+    def of_page(self, asked: Collection[str]) -> list[str]:
+        """What the page is made from, besides its templates.
+
+        Sweeps and chapter are shown where they have been run, for which this looks at the disk; and the
+        sweeps also where they are about to be run.
+
+        Args:
+            asked: the targets of this run of the workflow, rules or files.
+        """
+        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+        swept = [
+            p for p in self._below(*SWEPT) if (coming and p in self.readings) or Path(p).exists()
+        ]
+        return [
+            *self._below(STUDY),
+            *self.tables,
+            *self.pictures("svg", "json"),
+            *swept,
+            *(self.beyond or [path for path in self._chapter() if Path(path).exists()]),
+        ]
+
+    def content_of_sweep(self, job: str) -> str:
+        """What the result of a job of the sweeps depends on besides the code, as a checksum."""
+        sweep, group = self.groups[job]
+        return content_of(sweep, self.study, group, self.matrix.cells)
+
+    def _chapter(self) -> list[str]:
+        """The chapter in the study's own folder, or in the folder for it below."""
+        return self._below(
+            *sorted(f"{base}{file}" for base in ("", f"{FOLDER}/") for file in CHAPTER)
+        )
+
+    def _below(self, *files: str) -> list[str]:
+        return [f"{self.study.results}/{file}" for file in files]
