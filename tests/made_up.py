@@ -3,11 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from upswing.runs.files.tables import RUNS, write_table
+from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, write_study
 from upswing.study.claims import Part
 from upswing.study.config import validated
+from upswing.study.paths import RUNS
 
 ONE, OTHER, THIRD = (f"balancing/table/alpha-{alpha}" for alpha in ("1", "0.5", "0.1"))
 N = 60

@@ -11,10 +11,10 @@ from pathlib import Path
 import pandas as pd
 
 from tests.benchmarks.rivals import ours, specification
-from upswing.report.cost import GROWTH
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.train import train
+from upswing.study.paths import GROWTH
 
 SEEDS = (10, 30, 100)
 STEPS = (100_000, 1_000_000, 10_000_000)

@@ -10,9 +10,9 @@ from rich.console import Console
 from rich.table import Table
 
 from tests.benchmarks.rivals import HIDDEN, in_c, in_numpy, in_torch, ours
-from upswing.report.cost import BENCHMARK
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
+from upswing.study.paths import BENCHMARK
 
 REPETITIONS = 9
 STEPS, SLOW_STEPS = 1_000_000, 1_500

@@ -11,10 +11,8 @@ import yaml
 from tests.paths import ROOT
 from tests.workflow.small_study import Study
 from upswing.analysis.ablation import EVERY_TIME
-from upswing.analysis.beyond_tables import CHANGES, CHOSEN, SHORTEST
 from upswing.analysis.search import chosen, upright_shares
 from upswing.optimal.rows import Row
-from upswing.optimal.tables import BOUND, MAPS
 from upswing.physics.environment import empty_trajectory
 from upswing.report.chapter import chapter
 from upswing.report.page import write_report
@@ -22,6 +20,7 @@ from upswing.runs.files.tables import write_table
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix, canonical_search, cells_of
+from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
 from upswing.study.readings import Readings
 
 SMALL = {

@@ -16,8 +16,7 @@ if find_spec("upswing") is None:
         ".venv/bin/snakemake"
     )
 
-from upswing.analysis.beyond_tables import CHANGES, CHOSEN, SHORTEST
-from upswing.optimal.tables import BOUND, MAPS
+from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
 from upswing.report.targets import Targets, templates
 from upswing.runs.records import restore, taken_as_they_are
 from upswing.runs.study_file import canonical

@@ -6,15 +6,15 @@ from typing import Any
 import pandas as pd
 
 from upswing.analysis import statistics, survival
-from upswing.analysis.beyond_tables import CHANGES
-from upswing.optimal.tables import BOUND, OF_THE_BOUND
+from upswing.optimal.tables import OF_THE_BOUND
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.table import read_table
 from upswing.runs.files.tables import write_table
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
 from upswing.runs.success import succeeds
 from upswing.study.errors import BadInput
 from upswing.study.matrix import cells_of
+from upswing.study.paths import BOUND, CHANGES
 from upswing.study.spec import Spec
 
 EVERY_TIME = 0.95

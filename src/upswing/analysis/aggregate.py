@@ -8,12 +8,13 @@ import pandas as pd
 
 from upswing.analysis import statistics, survival
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.tables import CELLS, MEASURES, NULLABLE, RUNS, write_table
+from upswing.runs.files.tables import MEASURES, NULLABLE, write_table
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.success import SUCCESS
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of, file_of, recording_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import CELLS, RUNS
 from upswing.study.spec import parse
 
 

@@ -1,8 +1,4 @@
-"""Where the tables of what goes beyond the thesis stand, and what is in them; the page needs no more."""
-
-CHANGES = "tables/changes.parquet"
-SHORTEST = "tables/shortest.parquet"
-CHOSEN = "tables/chosen.parquet"
+"""What is in the tables of what goes beyond the thesis; the page needs no more."""
 
 OF_A_CHANGE = {
     "change": "text", "cell": "text", "task": "text", "kind": "text", "steps": "whole",
@@ -23,5 +19,4 @@ OF_THE_CHOSEN = {
 }  # fmt: skip
 REMEDY = "`make beyond` makes it"
 
-FOLDER = "beyond"
 """The chapter's own results lie in this folder of the study's."""

@@ -11,29 +11,21 @@ import pyarrow.parquet as pq
 from upswing.analysis.recount import judged_by, recount
 from upswing.runs.files.checksums import checksum
 from upswing.runs.files.ledger import (
-    FOLDER,
-    Ledger,
-    ledger_of_run,
-    ledger_path,
-    ledgers,
-    read_ledger,
-)
-from upswing.runs.files.ledger import (
     RUNS as OF_RUNS,
 )
-from upswing.runs.files.tables import CELLS, EVIDENCE, RUNS, VERDICTS
+from upswing.runs.files.ledger import Ledger, ledger_of_run, ledger_path, ledgers, read_ledger
 from upswing.runs.files.trajectory import read_metadata
-from upswing.runs.study_file import FILE as STUDY
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim, canonical_claims, load_claims
 from upswing.study.errors import BadInput
 from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import CELLS, CHECKSUMS, EVIDENCE, RUNS, STUDY, VERDICTS
 from upswing.study.spec import Spec
 
 CLAIMS = Path("config/claims.yaml")
-NOT_OURS = ("README.md", "logs", "benchmarks", FOLDER, "runs", "report/snakemake.html")
+NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", "report/snakemake.html")
 """What has no checksum: what a job said, what Snakemake measured or reports, runs (looked at singly)."""
 
 AGAIN = "run the study again"
@@ -68,11 +60,11 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
         BadInput: the folder has no readable ``study.json``, so nobody can say what should be in it.
     """
     matrix = Matrix(read_study(results))
-    sealed = (results / FOLDER).is_dir()
+    sealed = (results / CHECKSUMS).is_dir()
     findings: list[Finding] = []
     if not sealed:
         what = "missing: nobody can say whether the files are those that were written"
-        findings.append(Finding(results / FOLDER, what, "make clean  # and run the study again"))
+        findings.append(Finding(results / CHECKSUMS, what, "make clean  # and run the study again"))
     found: dict[str, dict[str, Any]] = {}
     for spec in matrix.cells.values():
         for seed in spec.seeds:
@@ -181,7 +173,7 @@ def _of_jobs(results: Path, sealed: bool) -> tuple[int, list[Finding]]:
     there = list(_files(results))
     if sealed:
         findings += [
-            _damaged(path, f"has no checksum in {results / FOLDER}")
+            _damaged(path, f"has no checksum in {results / CHECKSUMS}")
             for path in there
             if path.relative_to(results).as_posix() not in of_file
         ]
@@ -245,7 +237,7 @@ def delete_orphans(results: Path) -> list[Path]:
     for name, path in ledgers(results).items():
         if name.startswith(f"{OF_RUNS}/") and name not in known:
             path.unlink()
-    for place in (results / "runs", results / FOLDER / OF_RUNS):
+    for place in (results / "runs", results / CHECKSUMS / OF_RUNS):
         for folder in sorted(place.rglob("*"), reverse=True):
             if folder.is_dir() and not any(folder.iterdir()):
                 folder.rmdir()

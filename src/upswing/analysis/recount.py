@@ -12,33 +12,18 @@ import pandas as pd
 
 from upswing.analysis.ablation import changes
 from upswing.analysis.aggregate import runs_of, summarise
-from upswing.analysis.beyond_tables import (
-    CHANGES,
-    CHOSEN,
-    OF_A_CANDIDATE,
-    OF_A_CHANGE,
-    OF_THE_CHOSEN,
-    SHORTEST,
-)
+from upswing.analysis.beyond_tables import OF_A_CANDIDATE, OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.search import chosen
 from upswing.analysis.verdicts import LEDGER, judge_all
 from upswing.runs.files.ledger import ledger_path, read_ledger
-from upswing.runs.files.table import read_table
-from upswing.runs.files.tables import (
-    CELLS,
-    EVIDENCE,
-    RUNS,
-    VERDICTS,
-    read_cells,
-    read_evidence,
-    read_runs,
-    read_verdicts,
-)
+from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
 from upswing.study.claims import Claim, canonical_claims
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import CELLS, CHANGES, CHOSEN, EVIDENCE, RUNS, SHORTEST, VERDICTS
 
 ALIKE = 1e-9
 """Relative difference that statistics may have from machine to machine."""

@@ -14,7 +14,6 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from upswing.analysis.ablation import EVERY_TIME
-from upswing.analysis.beyond_tables import CHOSEN, SHORTEST
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
@@ -23,6 +22,7 @@ from upswing.runs.simulation import prepare
 from upswing.study.config import Search, Study
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
+from upswing.study.paths import CHOSEN, SHORTEST
 from upswing.study.spec import Spec
 
 KEPT = ("title", "architecture", "alpha", "discount", "seeds")

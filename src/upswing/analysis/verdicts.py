@@ -12,10 +12,11 @@ from upswing.analysis import statistics, survival
 from upswing.analysis.contraction import PROBLEMS, contracts
 from upswing.analysis.statistics import Estimate
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.tables import EVIDENCE, VERDICTS, write_table
+from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.study.claims import Bound, Claim, Part, Verdict, canonical_claims, weakest
 from upswing.study.errors import BadInput, near
+from upswing.study.paths import EVIDENCE, VERDICTS
 
 LEDGER = "verdicts"
 """The ledger of both tables; it has the claims by which they were judged."""

@@ -14,6 +14,7 @@ from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.study.errors import BadInput, near
 from upswing.study.loading import load, parts, source_of
+from upswing.study.paths import FIGURES as FIGURES_FOLDER
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -85,7 +86,7 @@ def draw(name: str, results: Path) -> None:
     drawing = load("figures", name).draw(Results(results))
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
-    place = results / "figures" / name
+    place = results / FIGURES_FOLDER / name
     save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:
         words = {

@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.optimal.tables import BOUND, MAPS, OF_THE_BOUND, OF_THE_MAPS, REMEDY
+from upswing.optimal.tables import OF_THE_BOUND, OF_THE_MAPS, REMEDY
+from upswing.study.paths import BOUND, MAPS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -24,7 +25,7 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
-    from upswing.runs.files.table import read_table
+    from upswing.runs.files.typed_table import read_table
     from upswing.study.errors import BadInput
 
     policies = {f"action_{discount}": "whole" for discount in (THESIS, FAR_SIGHTED)}

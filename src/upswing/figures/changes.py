@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.analysis.beyond_tables import CHANGES, OF_A_CHANGE, REMEDY
+from upswing.analysis.beyond_tables import OF_A_CHANGE, REMEDY
 from upswing.figures.declaration import Declaration
+from upswing.study.paths import CHANGES
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
@@ -22,7 +23,7 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
-    from upswing.runs.files.table import read_table
+    from upswing.runs.files.typed_table import read_table
     from upswing.study.ids import CellId
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)

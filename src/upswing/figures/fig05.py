@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+from upswing.figures.captions import CROWD, MEDIAN_BY_FALLS
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, MEDIAN_BY_FALLS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing

@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+from upswing.figures.captions import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 from upswing.figures.declaration import Declaration
-from upswing.figures.words import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
 
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing

@@ -19,8 +19,8 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.cells import share
     from upswing.figures.style import grid_of_panels
+    from upswing.figures.success_share import share
     from upswing.study.ids import CellId
 
     figure, axes = grid_of_panels(2, (3, 2), height=2.4)

@@ -21,8 +21,8 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.cells import share
     from upswing.figures.style import WIDTH, subplots
+    from upswing.figures.success_share import share
     from upswing.runs.success import SUCCESS
     from upswing.study.ids import CellId
 

@@ -10,11 +10,12 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from upswing.analysis.robustness.tables import OF_A_READING, READINGS, REMEDY
+from upswing.analysis.robustness.tables import OF_A_READING, REMEDY
 from upswing.figures.style import GRID, WIDTH, save, subplots
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.table import read_table
+from upswing.runs.files.typed_table import read_table
 from upswing.study.errors import BadInput
+from upswing.study.paths import READINGS, figure_of_sweep
 from upswing.study.readings import options_of
 from upswing.study.sweeps import Sweep, number_of
 
@@ -35,9 +36,9 @@ def draw_readings(results: Path, sweeps: Mapping[str, Sweep]) -> list[Path]:
     for name, of in judged.groupby("sweep", sort=False):
         if name not in sweeps:
             raise BadInput([f"{results / READINGS}: {name}: is no sweep of this study; {REMEDY}"])
-        place = results / "figures" / f"readings-{name}"
-        save(draw_sweep(of, sweeps[str(name)]), place)
-        paths.append(place.with_suffix(".svg"))
+        picture = results / figure_of_sweep(str(name), "svg")
+        save(draw_sweep(of, sweeps[str(name)]), picture.with_suffix(""))
+        paths.append(picture)
     seal(results, "figures/readings", [p.with_suffix(e) for p in paths for e in (".svg", ".png")])
     return paths
 

@@ -15,8 +15,8 @@ def draw(results: "Results") -> "Drawing":
     """A panel for each task: the share of runs that succeed over α, a line for each architecture."""
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.cells import share
     from upswing.figures.style import grid_of_panels
+    from upswing.figures.success_share import share
     from upswing.runs.success import SUCCESS
 
     curves: dict[tuple[str, str], dict[float, str]] = {}

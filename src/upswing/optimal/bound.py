@@ -8,17 +8,17 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from upswing.optimal.grid import Array, Grid, points
 from upswing.optimal.policies import act
 from upswing.optimal.rows import Row, exact, explored_optimal, of_grid, thresholds
 from upswing.optimal.solved import Solved, solve
-from upswing.optimal.tables import BOUND, MAPS
+from upswing.optimal.state_grid import Array, Grid, points
 from upswing.optimal.tile_rows import of_tiles
 from upswing.optimal.viability import HALF
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
+from upswing.study.paths import BOUND, MAPS
 
 GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
 """Each twice as fine as the one before; −90°, ±20° and rest are among the points of all of them."""

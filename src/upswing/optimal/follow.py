@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from upswing.agents.policy import explored_action, explores
-from upswing.optimal.grid import Array, step
 from upswing.optimal.policies import act
+from upswing.optimal.state_grid import Array, step
 from upswing.physics import tasks
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum

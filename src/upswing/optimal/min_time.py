@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from upswing.optimal.grid import Array, Grid, Successors, between, interpolate, step
 from upswing.optimal.policies import act, act_of
+from upswing.optimal.state_grid import Array, Grid, Successors, between, interpolate, step
 from upswing.optimal.value_iteration import Optimal, promised
 from upswing.optimal.viability import HALF
 from upswing.physics.jit import compiled

@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from upswing.optimal.grid import Array, Grid, Successors, refined, successors
 from upswing.optimal.min_time import Fastest, steps_to
+from upswing.optimal.state_grid import Array, Grid, Successors, refined, successors
 from upswing.optimal.value_iteration import Optimal, optimal_values
 from upswing.optimal.viability import kept_shares
 from upswing.physics.pendulum import Pendulum

@@ -1,7 +1,4 @@
-"""Where the tables of the bound stand, and what is in them; light, so that the workflow can read it."""
-
-BOUND = "tables/bound.parquet"
-MAPS = "tables/bound_maps.parquet"
+"""What is in the tables of the bound."""
 
 FULL_CONTROL = "full-control"
 """The task that rows are of, where no other is said."""

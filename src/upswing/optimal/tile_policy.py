@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from upswing.agents.features import locate
 from upswing.agents.features.grid import Tiles, tiles_for
-from upswing.optimal.grid import step
 from upswing.optimal.policies import act_of
+from upswing.optimal.state_grid import step
 from upswing.physics import tasks
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum

@@ -5,7 +5,7 @@ from math import atan
 
 import numpy as np
 
-from upswing.optimal.grid import Array, Grid, Successors, between, interpolate, points
+from upswing.optimal.state_grid import Array, Grid, Successors, between, interpolate, points
 from upswing.physics.braking import highest_speed_short_of
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum

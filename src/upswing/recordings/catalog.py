@@ -12,9 +12,9 @@ from urllib.parse import quote
 
 import pandas as pd
 
-from upswing.recordings.names import VIEWER
 from upswing.recordings.ports import LOOPBACK, check_free
 from upswing.recordings.processes import running
+from upswing.recordings.program import RERUN
 from upswing.runs.results import Results
 from upswing.study.errors import BadInput
 
@@ -73,7 +73,7 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
     """Open a viewer on ``catalog`` and wait until it is closed, or Ctrl-C."""
     if web:
         check_free(web_port)
-        command = [str(VIEWER), "--serve-web", "--bind", LOOPBACK]
+        command = [str(RERUN), "--serve-web", "--bind", LOOPBACK]
         command += ["--web-viewer-port", str(web_port), catalog.url]
         page = f"http://{LOOPBACK}:{web_port}/?url={quote(catalog.url, safe='')}"
         print(f"{catalog.runs} runs at {page}\nCtrl-C ends it.", flush=True)
@@ -82,7 +82,7 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
             raise BadInput(
                 ["there is no display here; `upswing browse --web` serves a page instead"]
             )
-        command = [str(VIEWER), catalog.url]
+        command = [str(RERUN), catalog.url]
         print(f"{catalog.runs} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it.")
     # However it is asked to end, it ends as by Ctrl-C; a shell may have switched that off.
     for sign in (signal.SIGINT, signal.SIGTERM):

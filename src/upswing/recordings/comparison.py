@@ -19,6 +19,7 @@ from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
 from upswing.runs.results import Crowd, Results
 from upswing.runs.simulation import body_of
 from upswing.study.ids import CellId, cell_of, run_of, seed_of
+from upswing.study.paths import comparison
 
 POINTS = 100
 """Largest number of points of a run's line."""
@@ -45,13 +46,12 @@ def claim_names(results: Results) -> list[str]:
 def write_comparisons(results: Results) -> list[Path]:
     """Write ``recordings/task-….rrd`` and ``recordings/claim-….rrd``; returns their paths."""
     rr.set_strict_mode(True)
-    folder = results.folder / "recordings"
     paths = []
     for task in task_names(results):
-        paths.append(folder / f"task-{task}.rrd")
+        paths.append(results.folder / comparison(f"task-{task}"))
         write_task(paths[-1], results, task)
     for claim in claim_names(results):
-        paths.append(folder / f"claim-{claim}.rrd")
+        paths.append(results.folder / comparison(f"claim-{claim}"))
         write_claim(paths[-1], results, claim)
     seal(results.folder, "comparisons", paths)
     return paths

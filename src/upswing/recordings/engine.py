@@ -21,9 +21,9 @@ from urllib.request import urlopen
 
 from platformdirs import user_cache_path
 
-from upswing.recordings.names import VIEWER
 from upswing.recordings.ports import LOOPBACK, free_port
 from upswing.recordings.processes import running
+from upswing.recordings.program import RERUN
 from upswing.recordings.singly import compressed
 from upswing.runs.files.atomic import written
 
@@ -60,7 +60,7 @@ def engine() -> Engine:
 def _own_folder() -> Path | None:
     """The folder of what is kept for this version; None where there is none that is ours alone."""
     base = user_cache_path("upswing") / "viewer"
-    folder = base / f"rerun-{version('rerun-sdk')}-{VIEWER.stat().st_size}"
+    folder = base / f"rerun-{version('rerun-sdk')}-{RERUN.stat().st_size}"
     try:
         base.parent.mkdir(parents=True, exist_ok=True)
         for each in (base, folder):
@@ -107,7 +107,7 @@ def _digest(content: bytes) -> bytes:
 def _fetched() -> list[bytes]:
     """The files from the viewer's own server, and surely its own."""
     port, other = free_port(), free_port()
-    command = [str(VIEWER), "--serve-web", "--bind", LOOPBACK, "--port", str(other)]
+    command = [str(RERUN), "--serve-web", "--bind", LOOPBACK, "--port", str(other)]
     with running(
         [*command, "--web-viewer-port", str(port)],
         stdout=subprocess.DEVNULL,
@@ -115,10 +115,10 @@ def _fetched() -> list[bytes]:
     ):
         files = [_answered(f"http://{LOOPBACK}:{port}/{name}") for name in FILES]
     # Another program may have taken the port just before; the viewer's files stand in its program.
-    with VIEWER.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as program:
+    with RERUN.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as program:
         for name, content in zip(FILES, files, strict=True):
             if not content or program.find(content) < 0:
-                raise RuntimeError(f"{name}: port {port} answered with what is not of {VIEWER}")
+                raise RuntimeError(f"{name}: port {port} answered with what is not of {RERUN}")
     return files
 
 

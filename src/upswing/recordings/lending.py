@@ -24,6 +24,7 @@ from upswing.recordings.ports import LOOPBACK
 from upswing.recordings.singly import LAYOUTS, RECORDINGS, script_of_layout, script_of_run
 from upswing.runs.results import Results
 from upswing.study.ids import recording_id
+from upswing.study.paths import PAGE, VIEWER
 
 PORT = 9873
 """Where the report is served, if nobody else is there."""
@@ -34,8 +35,6 @@ CONNECTIONS = 16
 ASKING, ANSWERING = 5.0, 120.0
 """Time limits for a request to arrive, and for its answer to be taken [s]."""
 
-PAGE = "report/index.html"
-VIEWER = "report/viewer/"
 SERVED = {".html", ".js", ".csv"}
 """What the report consists of."""
 

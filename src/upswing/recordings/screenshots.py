@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 from PIL import Image
 
 from upswing.recordings.catalog import catalog
-from upswing.recordings.names import VIEWER
 from upswing.recordings.ports import LOOPBACK, free_port, listens
 from upswing.recordings.processes import running
+from upswing.recordings.program import RERUN
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.layout import run_layout
 from upswing.runs.results import Results
 from upswing.study.ids import cell_of, recording_of
+from upswing.study.paths import comparison
 
 if TYPE_CHECKING:
     from rerun.experimental import ViewerClient
@@ -51,7 +52,7 @@ def take_screenshots(results: Results, folder: Path, run: str, task: str) -> Non
         viewer.open(str(layout), navigate=False)
         viewer.open(str(results.folder / recording_of(run)))
         _picture(viewer, folder / "run.png", "frame", 1_100)
-        viewer.open(str(results.folder / "recordings" / f"task-{task}.rrd"))
+        viewer.open(str(results.folder / comparison(f"task-{task}")))
         _picture(viewer, folder / "comparison.png", "step", cell.task.steps // 2)
         viewer.open(served.datasets[task])
         _picture(viewer, folder / "catalog.png")
@@ -63,7 +64,7 @@ def headless_viewer() -> Iterator["ViewerClient"]:
     from rerun.experimental import ViewerClient
 
     port = free_port()
-    command = [str(VIEWER), "--headless", "--hide-welcome-screen", "--bind", LOOPBACK]
+    command = [str(RERUN), "--headless", "--hide-welcome-screen", "--bind", LOOPBACK]
     with running([*command, "--port", str(port)]) as process:
         until = time.monotonic() + PATIENCE
         while not listens(port):

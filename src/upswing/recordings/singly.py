@@ -14,6 +14,7 @@ from upswing.runs.files.tables import read_verdicts
 from upswing.runs.recording.layout import run_layout
 from upswing.runs.results import Results
 from upswing.study.ids import cell_of, recording_id, recording_of, run_of
+from upswing.study.paths import FIGURES
 
 RECORDINGS, LAYOUTS = "recordings", "layouts"
 """The folders of the scripts, beside the page that loads them."""
@@ -25,7 +26,7 @@ def chosen_runs(results: Results) -> list[str]:
     of_claims = [run_of(str(path)) for paths in verdicts["recordings"] for path in paths]
     words = [
         json.loads(path.read_text("utf-8"))
-        for path in sorted((results.folder / "figures").glob("*.json"))
+        for path in sorted((results.folder / FIGURES).glob("*.json"))
     ]
     known = set(results.runs["run"])  # a figure may be left over from an earlier study
     shown = [run for figure in words for run in figure["runs"] if run in known]

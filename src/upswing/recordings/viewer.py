@@ -10,8 +10,8 @@ import shutil
 from pathlib import Path
 
 from upswing.recordings.comparison import claim_names, task_names
+from upswing.recordings.content_policy import with_hashes
 from upswing.recordings.engine import engine
-from upswing.recordings.policies import with_hashes
 from upswing.recordings.singly import (
     LAYOUTS,
     RECORDINGS,
@@ -24,8 +24,7 @@ from upswing.recordings.singly import (
 from upswing.runs.files.ledger import seal
 from upswing.runs.results import Results
 from upswing.study.ids import recording_id
-
-FOLDER = "report/viewer"
+from upswing.study.paths import VIEWER, comparison
 
 
 def write_viewer(results: Results, templates: Path) -> list[str]:
@@ -35,7 +34,7 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
         results: whose recordings are shown; figures, verdicts and comparisons must be there.
         templates: the folder with ``viewer.html``.
     """
-    folder = results.folder / FOLDER
+    folder = results.folder / VIEWER
     beside = folder.with_name(f"{folder.name}.part")
     shutil.rmtree(beside, ignore_errors=True)
     for inner in (RECORDINGS, LAYOUTS):
@@ -51,7 +50,7 @@ def write_viewer(results: Results, templates: Path) -> list[str]:
     for kind, one_of in (("task", task_names(results)), ("claim", claim_names(results))):
         for each in one_of:
             names.append(f"{kind}-{each}")
-            recording = results.folder / "recordings" / f"{names[-1]}.rrd"
+            recording = results.folder / comparison(names[-1])
             _write_script(beside, names[-1], script_of(names[-1], recording.read_bytes()))
     for run in chosen_runs(results):
         names.append(recording_id(run))

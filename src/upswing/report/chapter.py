@@ -6,16 +6,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.analysis.beyond_tables import (
-    CHANGES,
-    CHOSEN,
-    FOLDER,
-    OF_A_CHANGE,
-    OF_THE_CHOSEN,
-    REMEDY,
-)
-from upswing.optimal.tables import BOUND, FULL_CONTROL, OF_THE_BOUND
-from upswing.runs.files.table import read_table
+from upswing.analysis.beyond_tables import OF_A_CHANGE, OF_THE_CHOSEN, REMEDY
+from upswing.optimal.tables import FULL_CONTROL, OF_THE_BOUND
+from upswing.runs.files.typed_table import read_table
+from upswing.study.paths import BEYOND, BOUND, CHANGES, CHOSEN
 
 Row = dict[str, Any]
 
@@ -25,7 +19,7 @@ def chapter(results: Path) -> Row:
 
     Its ``base`` is the way from the page to the chapter's own report.
     """
-    for folder, base in ((results, ""), (results / FOLDER, f"../{FOLDER}/report/")):
+    for folder, base in ((results, ""), (results / BEYOND, f"../{BEYOND}/report/")):
         if all((folder / table).exists() for table in (CHANGES, BOUND)):
             return {
                 "own": folder == results,

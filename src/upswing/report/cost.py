@@ -5,11 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-BENCHMARK = "tables/benchmark.parquet"
-"""Where `make bench` leaves what it measured."""
-
-GROWTH = "tables/growth.parquet"
-"""Where `make bench-growth` does."""
+from upswing.study.paths import JOB_COSTS
 
 OF_A_BENCHMARK = {
     "learner": "text", "program": "text", "least": "number", "ratio": "number", "ratio_low": "number",
@@ -29,7 +25,7 @@ def costs(results: Path) -> list[dict[str, Any]]:
     Keys: ``rule``, ``jobs``, ``seconds`` (of all jobs, one after the other), ``cpu_seconds``,
     ``memory`` [MB] (of the largest job).
     """
-    folder = results / "benchmarks"
+    folder = results / JOB_COSTS
     rows = []
     for path in sorted(folder.rglob("*.tsv")):
         relative = path.relative_to(folder)

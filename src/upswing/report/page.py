@@ -12,45 +12,45 @@ from markupsafe import Markup
 
 from upswing import figures
 from upswing.analysis.robustness.tables import (
-    DECISIVE,
     OF_A_CAUSE,
     OF_A_READING,
     OF_A_SELECTION,
     OF_A_SUMMARY,
-    READINGS,
     REMEDY,
-    ROBUST,
-    SELECTION,
 )
 from upswing.physics.pendulum import Pendulum
-from upswing.recordings.policies import source_of
+from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.chapter import chapter
-from upswing.report.cost import (
-    BENCHMARK,
-    GROWTH,
-    OF_A_BENCHMARK,
-    OF_GROWTH,
-    costs,
-    totals,
-)
+from upswing.report.cost import OF_A_BENCHMARK, OF_GROWTH, costs, totals
 from upswing.report.scale import strip
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.provenance import provenance
-from upswing.runs.files.table import Columns, read_table
-from upswing.runs.files.tables import EVIDENCE, read_cells, read_evidence, read_runs, read_verdicts
+from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
+from upswing.runs.files.typed_table import Columns, read_table
 from upswing.runs.study_file import read_study
+from upswing.study import paths
 from upswing.study.claims import WEAKEST_FIRST
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import (
+    BENCHMARK,
+    DECISIVE,
+    EVIDENCE,
+    EVIDENCE_CSV,
+    GROWTH,
+    PAGE,
+    READINGS,
+    ROBUST,
+    RUNS_CSV,
+    SELECTION,
+)
 from upswing.study.readings import Readings
 from upswing.study.yaml_file import read_yaml
 
-PAGE = "report/index.html"
-RUNS_CSV, EVIDENCE_CSV = "report/runs.csv", "report/evidence.csv"
 SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
 CAUSES, LIKELIEST = 3, 8
 """Number of readings shown: of those that decide a claim, and of the most likely ones."""
@@ -195,11 +195,11 @@ def _figures(results: Path) -> list[Row]:
     pages = []
     for name in dict.fromkeys((*figures.NAMES, *read_study(results).figures)):
         declared = figures.FIGURES[name]
-        place = results / "figures" / name
         page: Row = {"name": name, **declared._asdict(), "missing": True}
-        if place.with_suffix(".json").exists():
-            said = json.loads(place.with_suffix(".json").read_text("utf-8"))
-            page |= {**said, "picture": _picture(place.with_suffix(".svg")), "missing": False}
+        words = results / paths.figure(name, "json")
+        if words.exists():
+            picture = _picture(results / paths.figure(name, "svg"))
+            page |= {**json.loads(words.read_text("utf-8")), "picture": picture, "missing": False}
         pages.append(page)
     return pages
 
@@ -228,9 +228,9 @@ def _swept(results: Path, study: Study) -> Row:
             for row in robust
         },
         "pictures": [
-            {"name": name, "data": _picture(results / "figures" / f"readings-{name}.svg")}
+            {"name": name, "data": _picture(results / paths.figure_of_sweep(name, "svg"))}
             for name in judged["sweep"].unique()
-            if (results / "figures" / f"readings-{name}.svg").is_file()
+            if (results / paths.figure_of_sweep(name, "svg")).is_file()
         ],
         "judged": {row["claim"]: row for row in robust},
         "turning": {claim: _turning(judged, claim) for claim in ("C8", "C9")},

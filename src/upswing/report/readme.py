@@ -5,14 +5,15 @@ from pathlib import Path
 import pandas as pd
 from PIL import Image
 
-from upswing.analysis.robustness.tables import OF_A_SELECTION, SELECTION
+from upswing.analysis.robustness.tables import OF_A_SELECTION
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
 from upswing.runs.files.atomic import written
-from upswing.runs.files.table import read_table
-from upswing.runs.files.tables import VERDICTS, read_verdicts
+from upswing.runs.files.tables import read_verdicts
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
 from upswing.study.errors import BadInput
+from upswing.study.paths import SELECTION, VERDICTS, figure
 from upswing.study.yaml_file import read_yaml
 
 FIGURES = ("overview", "step-sizes")
@@ -58,7 +59,7 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
             selection.to_csv(beside, index=False, float_format="%.6g")
     pictures = readme.parent / PICTURES
     for name in FIGURES:
-        source = results / "figures" / f"{name}.png"
+        source = results / figure(name, "png")
         if not source.exists():
             raise BadInput([f"{source}: missing; `upswing figure {name} {results}` makes it"])
         with Image.open(source) as image, written(pictures / source.name) as beside:

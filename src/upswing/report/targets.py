@@ -8,25 +8,44 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from upswing.analysis.beyond_tables import CHANGES, CHOSEN, FOLDER, SHORTEST
-from upswing.analysis.robustness.tables import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.figures import FIGURES, NAMES, drawable
-from upswing.optimal.tables import BOUND, MAPS
-from upswing.recordings.names import comparison_names
-from upswing.runs.files.tables import CELLS, EVIDENCE, RUNS, VERDICTS
-from upswing.runs.study_file import FILE as STUDY
+from upswing.recordings.comparison_names import comparison_names
 from upswing.study.claims import Claim
 from upswing.study.config import Study
 from upswing.study.ids import file_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import (
+    BEYOND,
+    BOUND,
+    CELLS,
+    CHANGES,
+    CHOSEN,
+    DECISIVE,
+    EVIDENCE,
+    EVIDENCE_CSV,
+    MAPS,
+    PAGE,
+    READINGS,
+    ROBUST,
+    RUNS,
+    RUNS_CSV,
+    SELECTION,
+    SHORTEST,
+    STUDY,
+    VERDICTS,
+    VIEWER,
+    comparison,
+    figure,
+    figure_of_sweep,
+    group_of_sweep,
+)
 from upswing.study.sweeps import SELECTION as CHOOSING
 from upswing.study.sweeps import Group, Sweep, content_of, groups
 
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
 
-OF_THE_PAGE = ("report/index.html", "report/runs.csv", "report/evidence.csv")
-VIEWER = "report/viewer"
+OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
 ASKING_FOR_READINGS = ("readings", "with_readings")
 """The targets, rules of the workflow, by which the claims are judged under other readings."""
@@ -34,7 +53,7 @@ ASKING_FOR_READINGS = ("readings", "with_readings")
 SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
 """The tables of the sweeps over readings, which the page shows once they have been run."""
 
-CHAPTER = (CHANGES, BOUND, CHOSEN, "figures/bound.svg", "figures/changes.svg")
+CHAPTER = (CHANGES, BOUND, CHOSEN, figure("bound", "svg"), figure("changes", "svg"))
 """What the page shows of the chapter beyond the thesis, once that has been run."""
 
 TEMPLATES = ("*.j2", "*.css", "*.js", "*.yaml", "parts/*", "drawings/*")
@@ -95,7 +114,7 @@ class Targets:
     def comparisons(self) -> list[str]:
         """The recordings that compare runs."""
         names = comparison_names(self.claims, self.matrix.cells)
-        return self._below(*(f"recordings/{name}.rrd" for name in names))
+        return self._below(*map(comparison, names))
 
     @cached_property
     def beyond(self) -> list[str]:
@@ -106,15 +125,13 @@ class Targets:
     @cached_property
     def swept(self) -> list[str]:
         """The table of every job of the sweeps."""
-        return self._below(*(f"readings/{job}.parquet" for job in self.groups))
+        return self._below(*(group_of_sweep(*job.split("/")) for job in self.groups))
 
     @cached_property
     def readings(self) -> list[str]:
         """What the sweeps come to: tables, and a figure of each sweep that judges claims."""
         judging = [name for name in self.sweeps if name != CHOOSING]
-        pictures = [
-            f"figures/readings-{name}.{kind}" for name in judging for kind in ("svg", "png")
-        ]
+        pictures = [figure_of_sweep(name, kind) for name in judging for kind in ("svg", "png")]
         tables = [table for table in SWEPT if table != SELECTION or CHOOSING in self.sweeps]
         return self._below(*tables, *pictures)
 
@@ -156,21 +173,21 @@ class Targets:
 
     def pictures(self, *kinds: str) -> list[str]:
         """The files of all figures that have one of these endings."""
-        return self._below(*(f"figures/{name}.{kind}" for name in self.figures for kind in kinds))
+        return self._below(*(figure(name, kind) for name in self.figures for kind in kinds))
 
     def of_figure(self, name: str) -> list[str]:
         """What a figure is drawn from, besides the table of runs.
 
         A file of the first run of each job stands for all of them, which are written together.
         """
-        figure = FIGURES[name]
+        declared = FIGURES[name]
         runs = [
             self.matrix.cells[cell].run(block.seeds[0])
-            for cell in figure.cells or self.matrix.cells
+            for cell in declared.cells or self.matrix.cells
             for block in self.matrix.blocks
         ]
         return self._below(
-            *figure.tables, *(file_of(run, kind) for run in runs for kind in figure.files)
+            *declared.tables, *(file_of(run, kind) for run in runs for kind in declared.files)
         )
 
     def of_page(self, asked: Collection[str]) -> list[str]:
@@ -202,7 +219,7 @@ class Targets:
     def _chapter(self) -> list[str]:
         """The chapter in the study's own folder, or in the folder for it below."""
         return self._below(
-            *sorted(f"{base}{file}" for base in ("", f"{FOLDER}/") for file in CHAPTER)
+            *sorted(f"{base}{file}" for base in ("", f"{BEYOND}/") for file in CHAPTER)
         )
 
     def _below(self, *files: str) -> list[str]:

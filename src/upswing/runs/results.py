@@ -9,14 +9,15 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from upswing.runs.files.table import read_table
-from upswing.runs.files.tables import RUNS, read_runs
+from upswing.runs.files.tables import read_runs
 from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.study_file import read_study
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of, file_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import RUNS
 from upswing.study.spec import Spec
 from upswing.study.task import NamedTask
 

@@ -10,8 +10,7 @@ from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.study.config import Study, validated
 from upswing.study.errors import BadInput
-
-FILE = "study.json"
+from upswing.study.paths import STUDY
 
 
 def canonical(study: Study) -> str:
@@ -22,14 +21,14 @@ def canonical(study: Study) -> str:
 def write_study(text: str, results: Path) -> None:
     """Keep the study written in ``text`` (JSON) as that of the folder ``results``."""
     study = parse_study(text, "study")
-    with written(results / FILE) as beside:
+    with written(results / STUDY) as beside:
         beside.write_text(json.dumps(study.model_dump(mode="json"), indent=1) + "\n", "utf-8")
-    seal(results, "study", [results / FILE])
+    seal(results, "study", [results / STUDY])
 
 
 def read_study(results: Path) -> Study:
     """The study that the folder ``results`` is of."""
-    path = results / FILE
+    path = results / STUDY
     try:
         text = path.read_text("utf-8")
     except OSError:

@@ -8,13 +8,14 @@ import pandas as pd
 
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.table import Columns
 from upswing.runs.files.tables import NULLABLE, OF_A_RUN, write_table
+from upswing.runs.files.typed_table import Columns
 from upswing.runs.outcome import outcome_of
 from upswing.runs.simulation import prepare
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
 from upswing.study.measured import Measures
+from upswing.study.paths import group_of_sweep
 from upswing.study.spec import Spec
 from upswing.study.sweeps import Sweep, canonical_of, groups, label, specs
 
@@ -26,7 +27,7 @@ OF_A_SWEPT_RUN: Columns = {
 
 def path_of(results: Path, sweep: str, group: str) -> Path:
     """Where the rows of a group stand."""
-    return results / "readings" / sweep / f"{group}.parquet"
+    return results / group_of_sweep(sweep, group)
 
 
 def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str) -> Path:

@@ -17,9 +17,9 @@ from pydantic import (
     model_validator,
 )
 
-from upswing.study.cells import check_cells
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, explained, near
+from upswing.study.known_cells import check_cells
 from upswing.study.measured import MEASURES
 from upswing.study.names import CellName, ClaimName, Text
 from upswing.study.readings import Readings, options_of

@@ -55,7 +55,7 @@ TABLES = Code(("upswing.analysis.aggregate", "upswing.runs.study_file"), ())
 VERDICTS = Code(("upswing.analysis.verdicts",), ("scipy",))
 CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
-    ("upswing.analysis.robustness.results", "upswing.figures.readings"), ("scipy", "matplotlib")
+    ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
 )
 COMPARISONS = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
 VIEWER = Code(("upswing.recordings.viewer",), ("rerun-sdk",))

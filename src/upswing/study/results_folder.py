@@ -7,6 +7,7 @@ damage.
 from pathlib import Path
 
 from upswing.study.errors import BadInput, shown
+from upswing.study.paths import STUDY
 
 OURS = (
     "benchmarks", "checksums", "figures", "logs", "readings", "recordings", "report", "runs",
@@ -14,7 +15,6 @@ OURS = (
 )  # fmt: skip
 """What a study leaves in its folder, or the project has put there."""
 
-MARKER = "study.json"
 PROJECT = (
     ".ci", ".git", ".github", ".snakemake", ".venv", "config", "docs", "report", "src", "tests",
     "workflow",
@@ -55,15 +55,15 @@ def _reason(folder: Path) -> str | None:
     if any(above.exists() and not above.is_dir() for above in place.parents):
         return "is below a file"
     for study, part in zip(place.parents, (place, *place.parents), strict=False):
-        if part.name in OURS and (study / MARKER).exists():
+        if part.name in OURS and (study / STUDY).exists():
             return f"is a part of the results in {study.name}"
-    if not place.is_dir() or (place / MARKER).exists():
+    if not place.is_dir() or (place / STUDY).exists():
         return None
     try:
         others = sorted(
             path.name
             for path in place.iterdir()
-            if path.name not in OURS and not (path / MARKER).exists()
+            if path.name not in OURS and not (path / STUDY).exists()
         )
     except OSError as error:
         return f"cannot be looked at: {error.strerror}"

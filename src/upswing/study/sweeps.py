@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, RootModel, ValidationError
 
-from upswing.study.cells import check_cells
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, explained, near, problem, shown
+from upswing.study.known_cells import check_cells
 from upswing.study.matrix import Matrix
 from upswing.study.names import CellName, Name
 from upswing.study.readings import Readings, options_of

@@ -11,12 +11,13 @@ import pytest
 from tests.made_up import FROM, ONE, OTHER
 from upswing.analysis import statistics
 from upswing.analysis.verdicts import write_verdicts
-from upswing.runs.files.tables import RUNS, write_table
+from upswing.runs.files.tables import write_table
 from upswing.runs.study_file import canonical, write_study
 from upswing.study.claims import load_claims
 from upswing.study.config import load
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
+from upswing.study.paths import RUNS
 
 
 def test_there_are_sixteen_claims_and_the_study_has_all_their_cells():

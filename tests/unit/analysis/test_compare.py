@@ -7,8 +7,9 @@ from tests.made_up import FROM, ONE, ZERO, N, made_up, part, share_of
 from upswing.analysis.compare import compare
 from upswing.analysis.verdicts import write_verdicts
 from upswing.cli.main import main
-from upswing.runs.files.tables import RUNS, write_table
+from upswing.runs.files.tables import write_table
 from upswing.study.claims import Claim
+from upswing.study.paths import RUNS
 
 
 @pytest.fixture

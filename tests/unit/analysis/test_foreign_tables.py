@@ -11,26 +11,38 @@ from hypothesis import strategies as st
 
 from tests.unit.analysis.test_sweeps import STUDY as SWEPT
 from tests.unit.analysis.test_sweeps import SWEEPS
-from upswing.analysis.beyond_tables import CHANGES, CHOSEN, OF_A_CHANGE, OF_THE_CHOSEN
+from upswing.analysis.beyond_tables import OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.robustness.tables import (
-    DECISIVE,
     OF_A_CAUSE,
     OF_A_READING,
     OF_A_SELECTION,
     OF_A_SUMMARY,
-    READINGS,
-    ROBUST,
-    SELECTION,
 )
 from upswing.cli.main import main
-from upswing.optimal.tables import BOUND, MAPS, OF_THE_BOUND, OF_THE_MAPS
-from upswing.report.cost import BENCHMARK, GROWTH, OF_A_BENCHMARK, OF_GROWTH
-from upswing.runs.files.table import read_table
-from upswing.runs.files.tables import CELLS, EVIDENCE, JUDGED, RUNS, VERDICTS
+from upswing.optimal.tables import OF_THE_BOUND, OF_THE_MAPS
+from upswing.report.cost import OF_A_BENCHMARK, OF_GROWTH
+from upswing.runs.files.tables import JUDGED
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import OF_A_SWEPT_RUN, path_of
 from upswing.study.claims import Verdict
 from upswing.study.errors import BadInput
+from upswing.study.paths import (
+    BENCHMARK,
+    BOUND,
+    CELLS,
+    CHANGES,
+    CHOSEN,
+    DECISIVE,
+    EVIDENCE,
+    GROWTH,
+    MAPS,
+    READINGS,
+    ROBUST,
+    RUNS,
+    SELECTION,
+    VERDICTS,
+)
 from upswing.study.sweeps import groups, load_sweeps
 
 RUN = "runs/balancing/table/alpha-0.1/seed-1"

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from upswing.analysis.robustness.selection import CELLS, select
-from upswing.analysis.robustness.tables import SELECTION
 from upswing.runs.study_file import read_study
 from upswing.study.config import load
+from upswing.study.paths import SELECTION
 from upswing.study.readings import Readings
 
 

@@ -8,9 +8,8 @@ import pytest
 
 from tests.helpers import ARCHITECTURES
 from upswing.analysis.aggregate import collect_runs
-from upswing.analysis.robustness.results import write_readings
 from upswing.analysis.robustness.selection import CELLS
-from upswing.analysis.robustness.tables import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.analysis.robustness.write import write_readings
 from upswing.figures.readings import draw_readings
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import write_group
@@ -19,6 +18,7 @@ from upswing.study.claims import load_claims
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
+from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.study.readings import Readings
 from upswing.study.sweeps import (
     canonical_of,

@@ -5,10 +5,11 @@ import pytest
 
 from tests.made_up import FROM, NOISE, ONE, OTHER, THIRD, UP_TO, ZERO, N, made_up, part, share_of
 from upswing.analysis.verdicts import judge, write_verdicts
-from upswing.runs.files.tables import RUNS, write_table
+from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.study.claims import Claim, weakest
 from upswing.study.errors import BadInput
+from upswing.study.paths import RUNS
 
 # kind, settings, and for each verdict the measures of the three cells that lead to it
 CASES = {

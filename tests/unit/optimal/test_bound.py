@@ -11,10 +11,10 @@ from upswing.agents.features import locate
 from upswing.optimal import bound as table
 from upswing.optimal import rows, tile_rows
 from upswing.optimal.follow import EPSILON, explored, follow, from_starts, without_exploring
-from upswing.optimal.grid import Grid, interpolate, points, successors
 from upswing.optimal.min_time import arrived, steps_taken
 from upswing.optimal.policies import act
 from upswing.optimal.solved import Solved, at_rest, solve
+from upswing.optimal.state_grid import Grid, interpolate, points, successors
 from upswing.optimal.tile_policy import TilePolicy, score, thesis_tiles
 from upswing.optimal.tile_search import projected, search
 from upswing.optimal.value_iteration import Optimal, optimal_values, promised

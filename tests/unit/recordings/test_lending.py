@@ -13,9 +13,9 @@ from tests.unit.recordings.pages import LONG, opened, shows_something, unpacked
 from upswing.recordings import lending as lending_module
 from upswing.recordings.lending import lending
 from upswing.recordings.ports import listens
-from upswing.recordings.viewer import FOLDER
 from upswing.report.page import write_report
 from upswing.study.ids import recording_id
+from upswing.study.paths import VIEWER
 
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
 
@@ -176,7 +176,7 @@ def test_what_cannot_be_read_is_said_in_one_line(results, served, monkeypatch, c
     missing = next(
         run
         for run in results.runs["run"]
-        if not (results.folder / FOLDER / "recordings" / f"{recording_id(run)}.js").exists()
+        if not (results.folder / VIEWER / "recordings" / f"{recording_id(run)}.js").exists()
     )
     path = f"/{served.token}/report/viewer/recordings/{recording_id(missing)}.js"
     assert asked(served.port, path)[0] == 500
@@ -234,6 +234,6 @@ def test_connections_are_bounded_in_number_and_time(results, names, monkeypatch)
                     taken += len(piece)
             except OSError:
                 pass
-            assert taken < (results.folder / FOLDER / "engine.js").stat().st_size
+            assert taken < (results.folder / VIEWER / "engine.js").stat().st_size
         for one in idle:
             one.close()

@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 
 from tests.unit.recordings.pages import LONG, opened, shows_something, unpacked
-from upswing.recordings.names import VIEWER
-from upswing.recordings.policies import source_of
+from upswing.recordings.content_policy import source_of
+from upswing.recordings.program import RERUN
 from upswing.recordings.singly import chosen_runs, script_of_layout, script_of_run
-from upswing.recordings.viewer import FOLDER, write_viewer
+from upswing.recordings.viewer import write_viewer
 from upswing.study.ids import recording_id
+from upswing.study.paths import VIEWER
 
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
 
@@ -26,7 +27,7 @@ def test_a_recording_handed_out_is_the_runs_own_file_and_names_its_layout(result
     assert b"Phase plane, policy" in layout
     file = tmp_path / "layout.rbl"
     file.write_bytes(layout)
-    done = subprocess.run([VIEWER, "rrd", "verify", file], capture_output=True, check=False)
+    done = subprocess.run([RERUN, "rrd", "verify", file], capture_output=True, check=False)
     assert done.returncode == 0
 
 
@@ -37,7 +38,7 @@ def test_a_run_without_a_recording_is_named(results):
 
 
 def test_chosen_recordings_stand_beside_the_report(results, names):
-    folder = results.folder / FOLDER
+    folder = results.folder / VIEWER
     assert {"task-balancing", "task-full-control", "claim-C1", "claim-C13"} <= set(names)
     assert {recording_id(run) for run in chosen_runs(results)} <= set(names)
     assert sorted(path.stem for path in (folder / "recordings").iterdir()) == sorted(names)
@@ -53,7 +54,7 @@ def test_chosen_recordings_stand_beside_the_report(results, names):
 
 
 def test_the_viewers_page_allows_what_it_brings_and_nothing_else(results, names):
-    page = (results.folder / FOLDER / "index.html").read_text("utf-8")
+    page = (results.folder / VIEWER / "index.html").read_text("utf-8")
     policy = re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1]
     assert "unsafe-inline" not in page
     assert "THE-" not in page
@@ -70,7 +71,7 @@ def test_a_recording_opens_from_plain_files_and_nothing_leaves_the_page(
     browser, results, names, tmp_path, kind
 ):
     name = "claim-C13" if kind == "claim" else recording_id(chosen_runs(results)[0])
-    folder = (results.folder / FOLDER).resolve()
+    folder = (results.folder / VIEWER).resolve()
     page, requests = opened(browser, f"{(folder / 'index.html').as_uri()}#{name}")
     page.wait_for_selector("body[data-state=open]", timeout=LONG)
     assert shows_something(page, tmp_path)
@@ -97,7 +98,7 @@ def test_a_recording_opens_from_plain_files_and_nothing_leaves_the_page(
     ],
 )
 def test_what_cannot_be_opened_is_explained(browser, results, names, name, expected):
-    page, _ = opened(browser, f"{(results.folder / FOLDER / 'index.html').as_uri()}#{name}")
+    page, _ = opened(browser, f"{(results.folder / VIEWER / 'index.html').as_uri()}#{name}")
     page.get_by_text(expected).wait_for(timeout=10_000)
     assert page.locator("img").count() == 0
     page.close()
@@ -108,7 +109,7 @@ def test_the_page_from_a_file_loads_nothing_from_a_port(browser, results, names)
     asked = []
     page = browser.new_page()
     page.on("request", lambda request: asked.append(request.url))
-    page.goto(f"{(results.folder / FOLDER / 'index.html').as_uri()}#no-such-run")
+    page.goto(f"{(results.folder / VIEWER / 'index.html').as_uri()}#no-such-run")
     page.get_by_text("make browse").wait_for(timeout=10_000)
     assert all(address.startswith("file://") for address in asked)
     page.close()

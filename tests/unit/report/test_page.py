@@ -11,13 +11,13 @@ import pytest
 
 from upswing.figures import draw, drawable
 from upswing.recordings.comparison import write_comparisons
-from upswing.recordings.policies import source_of
+from upswing.recordings.content_policy import source_of
 from upswing.recordings.viewer import write_viewer
 from upswing.report import words
 from upswing.report.cost import costs
-from upswing.report.page import PAGE, write_report
+from upswing.report.page import write_report
 from upswing.report.scale import strip
-from upswing.runs.files.tables import CELLS, RUNS, VERDICTS
+from upswing.study.paths import CELLS, PAGE, RUNS, VERDICTS
 
 
 @pytest.fixture(scope="module")

@@ -32,13 +32,13 @@ from upswing.report.readme import (
     verdicts_of,
     write_readme,
 )
-from upswing.runs.files.tables import VERDICTS
 from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, read_study, write_study
 from upswing.runs.train import train
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
+from upswing.study.paths import VERDICTS
 
 TEMPLATES = ROOT / "report"
 LARGEST = 300_000

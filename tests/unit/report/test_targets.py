@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 from tests.paths import ROOT
-from upswing.recordings.viewer import FOLDER as VIEWER_FOLDER
 from upswing.report import targets
-from upswing.report.page import EVIDENCE_CSV, PAGE, RUNS_CSV
 from upswing.report.targets import Targets, templates
 from upswing.study.check import asked
 from upswing.study.config import validated
+from upswing.study.paths import EVIDENCE_CSV, PAGE, RUNS_CSV
+from upswing.study.paths import VIEWER as VIEWER_FOLDER
 from upswing.study.sweeps import Sweep
 
 TASK = {"kind": "balancing", "steps": 2_000}

@@ -20,10 +20,11 @@ from upswing.cli.main import main
 from upswing.physics.environment import empty_trajectory
 from upswing.recordings.catalog import catalog
 from upswing.recordings.comparison import write_comparisons
-from upswing.recordings.names import VIEWER, comparison_names
+from upswing.recordings.comparison_names import comparison_names
 from upswing.recordings.ports import free_port
+from upswing.recordings.program import RERUN
+from upswing.recordings.run_filter import select
 from upswing.recordings.screenshots import headless_viewer, take_screenshots, wait_until_loaded
-from upswing.recordings.selection import select
 from upswing.runs.metrics import in_windows, measure
 from upswing.runs.recording.frames import STRETCH, stretches
 from upswing.runs.recording.layout import run_layout
@@ -93,7 +94,7 @@ def test_identical_runs_have_equal_recordings(results, tmp_path):
     ours = {chunk: rows for chunk, rows in _columns(one).items() if "about" not in chunk}
     assert ours == {chunk: rows for chunk, rows in _columns(again).items() if "about" not in chunk}
     assert (
-        subprocess.run([VIEWER, "rrd", "verify", one], check=False, capture_output=True).returncode
+        subprocess.run([RERUN, "rrd", "verify", one], check=False, capture_output=True).returncode
         == 0
     )
 
@@ -340,4 +341,4 @@ def test_screenshots_are_taken(results, tmp_path, monkeypatch):
 
 
 def test_rerun_is_installed_beside_python():
-    assert shutil.which(str(VIEWER))
+    assert shutil.which(str(RERUN))

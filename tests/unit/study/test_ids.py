@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.paths import ROOT
-from upswing.recordings.selection import _by_id
+from upswing.recordings.run_filter import _by_id
 from upswing.study.errors import BadInput
 from upswing.study.ids import (
     RUN_FILES,
@@ -73,4 +73,4 @@ def test_no_other_file_builds_or_takes_apart_a_path_of_a_run():
         for line in path.read_text("utf-8").splitlines()
         if by_hand.search(line)
     }
-    assert set(found) <= {Path("src/upswing/recordings/selection.py")}, found  # what a user writes
+    assert set(found) <= {Path("src/upswing/recordings/run_filter.py")}, found  # what a user writes

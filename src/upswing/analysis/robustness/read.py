@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from upswing.runs.files.table import read_table
+from upswing.runs.files.typed_table import read_table
 from upswing.runs.sweep import OF_A_SWEPT_RUN, path_of
 from upswing.study.config import Study
 from upswing.study.errors import BadInput

@@ -1,9 +1,4 @@
-"""Where the tables of the sweeps stand, and what is in them; light: the page depends on nothing more."""
-
-SELECTION = "tables/selection.parquet"
-READINGS = "tables/readings.parquet"
-DECISIVE = "tables/decisive.parquet"
-ROBUST = "tables/robust.parquet"
+"""What is in the tables of the sweeps; light: the page depends on nothing more."""
 
 OF_A_SELECTION = {
     "reward_unit": "text", "biases": "text", "initial_weights": "number", "learning_rate": "number",

@@ -87,9 +87,10 @@ def browse(
 ) -> None:
     """Browse the recordings of all runs, or of some."""
     from upswing.recordings.catalog import catalog, show
-    from upswing.recordings.lending import PAGE, lending
-    from upswing.recordings.selection import select
+    from upswing.recordings.lending import lending
+    from upswing.recordings.run_filter import select
     from upswing.runs.results import Results
+    from upswing.study.paths import PAGE
 
     folder = results_folder(results)
     found = Results(folder)

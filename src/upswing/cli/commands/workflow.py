@@ -150,7 +150,7 @@ def readings(
     claims: Claims = CLAIMS,
 ) -> None:
     """Judge every claim under every reading of the sweeps, and choose the networks' default."""
-    from upswing.analysis.robustness.results import write_readings
+    from upswing.analysis.robustness.write import write_readings
     from upswing.cli.shown.readings import print_robustness
     from upswing.figures.readings import draw_readings
     from upswing.runs.study_file import read_study

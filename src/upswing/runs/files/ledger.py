@@ -14,8 +14,8 @@ from typing import NamedTuple
 from upswing.runs.files.atomic import written
 from upswing.runs.files.checksums import checksum
 from upswing.study.errors import BadInput
+from upswing.study.paths import CHECKSUMS
 
-FOLDER = "checksums"
 RUNS = "runs"
 """The ledgers of runs are below this folder of theirs, each named as its run."""
 
@@ -44,7 +44,7 @@ def seal(results: Path, name: str, files: Iterable[Path], **made_from: str) -> N
 
 def ledger_path(results: Path, name: str) -> Path:
     """Where the ledger ``name`` is."""
-    return results / FOLDER / f"{name}.json"
+    return results / CHECKSUMS / f"{name}.json"
 
 
 def ledger_of_run(run: str) -> str:
@@ -73,7 +73,7 @@ def read_ledger(path: Path) -> Ledger:
 
 def ledgers(results: Path) -> dict[str, Path]:
     """The ledgers of a folder of results by name."""
-    folder = results / FOLDER
+    folder = results / CHECKSUMS
     paths = sorted(path for path in folder.rglob("*.json") if not path.name.startswith("."))
     return {path.relative_to(folder).with_suffix("").as_posix(): path for path in paths}
 

@@ -9,14 +9,10 @@ import pyarrow.parquet as pq
 
 from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import metadata
-from upswing.runs.files.table import Columns, read_table
+from upswing.runs.files.typed_table import Columns, read_table
 from upswing.study.errors import BadInput
 from upswing.study.ids import recording_of
-
-RUNS = "tables/runs.parquet"
-CELLS = "tables/cells.parquet"
-VERDICTS = "tables/verdicts.parquet"
-EVIDENCE = "tables/evidence.parquet"
+from upswing.study.paths import CELLS, EVIDENCE, RUNS, VERDICTS
 
 NULLABLE = {
     "alpha": "float64",

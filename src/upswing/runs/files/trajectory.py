@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from upswing.physics.environment import Trajectory
 from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import KEY
-from upswing.runs.files.table import Columns
+from upswing.runs.files.typed_table import Columns
 from upswing.runs.metrics import Windows
 from upswing.study.errors import BadInput
 

@@ -8,12 +8,12 @@ import pandas as pd
 from upswing.analysis.robustness.judging import decisive, robustness, summary
 from upswing.analysis.robustness.read import read_sweep
 from upswing.analysis.robustness.selection import SWEEP, select
-from upswing.analysis.robustness.tables import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
+from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.study.sweeps import Sweep
 
 

@@ -1,0 +1,60 @@
+"""Where everything of a study stands, from its folder of results: the one place that names these files.
+
+A run's own files are named in ``ids``. Light, so that the workflow can read it.
+"""
+
+STUDY = "study.json"
+
+RUNS = "tables/runs.parquet"
+CELLS = "tables/cells.parquet"
+VERDICTS = "tables/verdicts.parquet"
+EVIDENCE = "tables/evidence.parquet"
+
+SELECTION = "tables/selection.parquet"
+READINGS = "tables/readings.parquet"
+DECISIVE = "tables/decisive.parquet"
+ROBUST = "tables/robust.parquet"
+"""What the sweeps over readings come to."""
+
+BOUND = "tables/bound.parquet"
+MAPS = "tables/bound_maps.parquet"
+CHANGES = "tables/changes.parquet"
+SHORTEST = "tables/shortest.parquet"
+CHOSEN = "tables/chosen.parquet"
+"""What goes beyond the thesis."""
+
+BENCHMARK = "tables/benchmark.parquet"
+GROWTH = "tables/growth.parquet"
+
+FIGURES = "figures"
+RECORDINGS = "recordings"
+CHECKSUMS = "checksums"
+JOB_COSTS = "benchmarks"
+
+PAGE = "report/index.html"
+RUNS_CSV = "report/runs.csv"
+EVIDENCE_CSV = "report/evidence.csv"
+VIEWER = "report/viewer"
+
+BEYOND = "beyond"
+"""The folder, in that of the thesis's study, of the study beyond it."""
+
+
+def figure(name: str, ending: str) -> str:
+    """A figure's picture (``svg``, ``png``) or its words (``json``)."""
+    return f"{FIGURES}/{name}.{ending}"
+
+
+def figure_of_sweep(sweep: str, ending: str) -> str:
+    """The picture of a sweep over readings."""
+    return figure(f"readings-{sweep}", ending)
+
+
+def comparison(name: str) -> str:
+    """A recording that compares runs: ``task-…`` or ``claim-…``."""
+    return f"{RECORDINGS}/{name}.rrd"
+
+
+def group_of_sweep(sweep: str, group: str) -> str:
+    """The table of a job of a sweep."""
+    return f"readings/{sweep}/{group}.parquet"
