@@ -36,10 +36,11 @@ $(INSTALLED): $(VENV)/.locked pyproject.toml | writable
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/.locked: requirements.lock | writable
+$(VENV)/.locked: requirements.lock requirements-slurm.lock | writable
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target $(VENV)/slurm -r requirements-slurm.lock
 	@touch $@
 
 .PHONY: reproduce
@@ -50,7 +51,7 @@ reproduce: install ## Run the whole study: figures, tables, recordings, report
 .PHONY: slurm
 slurm: install ## Run the whole study on a Slurm cluster (see workflow/README.md)
 	@$(BIN)/upswing check config/config.yaml > /dev/null
-	@PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml
+	@PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH="$(CURDIR)/$(VENV)/slurm" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml
 	@echo "The report is at results/report/index.html"
 
 .PHONY: unlock
@@ -162,6 +163,10 @@ lock: ## Renew requirements.lock from pyproject.toml
 	.lock-venv/bin/python -m pip install --quiet '.[dev,docs]'
 	{ echo "# Exact versions of everything that upswing uses. Renew with: make lock"; \
 	  .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | sed 's/+cpu$$//'; } > requirements.lock
+	.lock-venv/bin/python -m pip install --quiet '.[slurm]'
+	{ sed -n '/^#/p' requirements-slurm.lock; .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | \
+	  sed 's/+cpu$$//' | grep -vxFf requirements.lock; } > requirements-slurm.lock.new
+	mv requirements-slurm.lock.new requirements-slurm.lock
 	rm -rf .lock-venv build
 
 .PHONY: clean

@@ -129,7 +129,9 @@ def test_slurm_makes_the_tables_that_one_machine_makes(slurm, tmp_path):
             "--slurm-init-seconds-before-status-checks", "3", "--seconds-between-status-checks", "2",
             "--latency-wait", "5", "--", target,
         ],
-        cwd=cluster.folder, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"},
+        cwd=cluster.folder, env={
+            **os.environ, "PATH": f"{BIN}:{os.environ['PATH']}", "PYTHONPATH": str(BIN.parent / "slurm"),
+        },
         capture_output=True, text=True, check=False, timeout=400,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]

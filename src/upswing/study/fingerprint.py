@@ -12,6 +12,8 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
+from upswing.study.source_cache import Read, SourceCache
+
 COMPUTING_PACKAGES = ("numpy", "numba", "llvmlite", "torch")
 """The packages whose version may change a trajectory."""
 
@@ -28,9 +30,10 @@ def fingerprint(*entries: str, packages: Iterable[str] = ()) -> str:
     """
     digest = hashlib.sha256()
     for module in sorted(reachable(*entries)):
-        digest.update(f"{module}\n{_content(module)}\n".encode())
+        digest.update(f"{module}\n{_read(module).digest}\n".encode())
     for package in sorted(packages):
         digest.update(f"{package}=={version(package)}\n".encode())
+    CACHE.save()
     return digest.hexdigest()[:16]
 
 
@@ -42,7 +45,8 @@ def reachable(*entries: str) -> set[str]:
         module = waiting.pop()
         if module not in found:
             found.add(module)
-            waiting.extend(_imports(module))
+            # The name of a function or class inside a module has no source of its own.
+            waiting.extend(name for name in _read(module).imports if _source(name) is not None)
             # To import a module is to import the packages it is in; the outermost says only a version.
             package = module.rpartition(".")[0]
             if "." in package:
@@ -51,8 +55,10 @@ def reachable(*entries: str) -> set[str]:
 
 
 PACKAGE = Path(__file__).parents[1]
+CACHE = SourceCache(PACKAGE)
 
 
+@cache
 def _source(module: str) -> Path | None:
     """The file of a module, found without importing anything; None for any other name."""
     place = PACKAGE.joinpath(*module.split(".")[1:])
@@ -61,17 +67,22 @@ def _source(module: str) -> Path | None:
 
 
 @cache
-def _content(module: str) -> str:
-    """A checksum of a module's syntax."""
-    return hashlib.sha256(ast.dump(_tree(module)).encode()).hexdigest()
-
-
-@cache
-def _tree(module: str) -> ast.Module:
-    """The syntax of a module without comments, docstrings, layout and what only type checkers read."""
+def _read(module: str) -> Read:
+    """A checksum of a module's syntax, and what it imports from this package: modules, and names in them."""
     path = _source(module)
     if path is None:
         raise ModuleNotFoundError(f"no source for module {module}")
+    known = CACHE.get(path)
+    if known is None:
+        tree = _tree(path)
+        digest = hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+        known = Read(digest, tuple(dict.fromkeys(_imported(tree))))
+        CACHE.put(path, known)
+    return known
+
+
+def _tree(path: Path) -> ast.Module:
+    """The syntax of a source without comments, docstrings, layout and what only type checkers read."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
@@ -80,24 +91,15 @@ def _tree(module: str) -> ast.Module:
     return tree
 
 
-@cache
-def _imports(module: str) -> tuple[str, ...]:
-    """The modules of this package that a module imports itself."""
-    return tuple(dict.fromkeys(_imported(module)))
-
-
-def _imported(module: str) -> Iterator[str]:
-    for node in ast.walk(_tree(module)):
+def _imported(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
             names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
         else:
             continue
-        for name in names:
-            # The name of a function or class inside a module has no source of its own.
-            if name.split(".")[0] == "upswing" and _source(name) is not None:
-                yield name
+        yield from (name for name in names if name.split(".")[0] == "upswing")
 
 
 def _is_idle(node: ast.stmt) -> bool:

@@ -5,9 +5,9 @@ types below, and nothing that is special to any of these is in any of them.
 """
 
 import re
+from decimal import Decimal
 from typing import Annotated
 
-import numpy as np
 from pydantic import AfterValidator, Field
 
 LONGEST = 60
@@ -69,7 +69,7 @@ def _cell(text: str) -> str:
 
 def alpha_text(alpha: float | None) -> str:
     """α written shortest: ``1``, ``0.75``, ``0.001``."""
-    return NO_ALPHA if alpha is None else np.format_float_positional(alpha, trim="-")
+    return NO_ALPHA if alpha is None else f"{Decimal(repr(float(alpha))).normalize():f}"
 
 
 Name = Annotated[str, AfterValidator(_named)]
