@@ -16,7 +16,7 @@ if find_spec("upswing") is None:
         ".venv/bin/snakemake"
     )
 
-from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
+from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST, VIEWER_PAGE
 from upswing.report.targets import Targets, templates
 from upswing.runs.records import restore, taken_as_they_are
 from upswing.runs.study_file import canonical
@@ -24,7 +24,7 @@ from upswing.study import jobs
 from upswing.study.check import asked
 from upswing.study.claims import canonical_claims
 from upswing.study.errors import BadInput
-from upswing.study.ids import RUN_FILES, file_of
+from upswing.study.ids import KNOWN_FILE, file_of
 from upswing.study.matrix import canonical_search
 
 if not workflow.configfiles:
@@ -64,6 +64,7 @@ wildcard_constraints:
     architecture="[a-z0-9-]+",
     alpha="[0-9.]+|none",
     figure="[a-z0-9-]+",
+    comparison="(task|claim)-[A-Za-z0-9-]+",
 
 
 @cache

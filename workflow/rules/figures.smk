@@ -2,8 +2,9 @@
 
 
 rule figure:
+    # The study is given in the command and is no input: a figure depends on its own cells, and no other cell of
+    # the study draws it anew.
     input:
-        f"{RESULTS}/tables/runs.parquet",
         lambda wildcards: FILES.of_figure(wildcards.figure),
     output:
         report(
@@ -21,4 +22,4 @@ rule figure:
     params:
         code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
-        "upswing figure {wildcards.figure:q} {RESULTS:q} > {log:q} 2>&1"
+        "upswing figure {wildcards.figure:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

@@ -1,36 +1,30 @@
-# Recordings that compare runs, and those that the page shows.
-#
-# They read files of all runs. The table of runs stands for them: it is made from a file of each run, and a
-# job of training writes all files of a run together.
+# Recordings that compare runs, one job each, and the viewer of those that the page shows.
 
 
-rule comparisons:
+rule comparison:
     input:
-        f"{RESULTS}/study.json",
-        f"{RESULTS}/tables/runs.parquet",
-        f"{RESULTS}/tables/verdicts.parquet",
+        lambda wildcards: FILES.of_comparison(wildcards.comparison),
     output:
-        FILES.comparisons,
+        f"{RESULTS}/recordings/{{comparison}}.rrd",
     log:
-        f"{RESULTS}/logs/comparisons.log",
+        f"{RESULTS}/logs/comparison/{{comparison}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/comparisons.tsv"
+        f"{RESULTS}/benchmarks/comparison/{{comparison}}.tsv"
     params:
-        code=jobs.COMPARISONS.fingerprint,
+        cells=lambda wildcards: FILES.cells_of_comparison(wildcards.comparison),
+        code=jobs.COMPARISON.fingerprint,
     shell:
-        "upswing comparisons {RESULTS:q} > {log:q} 2>&1"
+        "upswing comparison {wildcards.comparison:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
 
 
 rule viewer:
+    # It writes more than its page, which comes last. What is there and still right stays.
     input:
-        f"{RESULTS}/study.json",
-        f"{RESULTS}/tables/runs.parquet",
-        f"{RESULTS}/tables/verdicts.parquet",
         FILES.pictures("json"),
         FILES.comparisons,
         "report/viewer.html",
     output:
-        directory(f"{RESULTS}/report/viewer"),
+        f"{RESULTS}/{VIEWER_PAGE}",
     log:
         f"{RESULTS}/logs/viewer.log",
     benchmark:
@@ -38,4 +32,4 @@ rule viewer:
     params:
         code=jobs.VIEWER.fingerprint,
     shell:
-        "upswing viewer {RESULTS:q} > {log:q} 2>&1"
+        "upswing viewer {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

@@ -9,9 +9,8 @@ for BLOCK in MATRIX.blocks:
             no_file,
         output:
             expand(
-                f"{RESULTS}/runs/{{{{task}}}}/{{{{architecture}}}}/alpha-{{{{alpha}}}}/seed-{{seed}}.{{kind}}",
+                f"{RESULTS}/runs/{{{{task}}}}/{{{{architecture}}}}/alpha-{{{{alpha}}}}/seed-{{seed}}.{KNOWN_FILE}",
                 seed=BLOCK.seeds,
-                kind=RUN_FILES,
             ),
         log:
             f"{RESULTS}/logs/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.log",

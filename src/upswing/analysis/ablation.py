@@ -36,7 +36,7 @@ def write_changes(results: Path) -> pd.DataFrame:
 def changes(results: Results) -> pd.DataFrame:
     """A row for every cell of an experiment that has a title."""
     bound = _bound(results.folder)
-    results.with_measures(MEASURED)
+    results.check_measures(results.runs, MEASURED)
     return pd.DataFrame(
         [
             {"change": experiment.title, **_row(results, results.cells[cell], bound)}

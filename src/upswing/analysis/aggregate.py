@@ -1,6 +1,5 @@
 """Runs → one row a run → one row a cell."""
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -8,14 +7,12 @@ import pandas as pd
 
 from upswing.analysis import statistics, survival
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.tables import MEASURES, NULLABLE, write_table
-from upswing.runs.files.trajectory import read_metadata
+from upswing.runs.files.tables import MEASURES, write_table
+from upswing.runs.rows import collected
 from upswing.runs.success import SUCCESS
-from upswing.study.errors import BadInput
-from upswing.study.ids import cell_of, file_of, recording_of
+from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 from upswing.study.paths import CELLS, RUNS
-from upswing.study.spec import parse
 
 
 def write_tables(results: Path, matrix: Matrix) -> None:
@@ -24,34 +21,10 @@ def write_tables(results: Path, matrix: Matrix) -> None:
     Raises:
         BadInput: runs are missing, or are not those of the matrix; it names them.
     """
-    runs = collect_runs(results, matrix)
+    runs = collected(results, matrix.cells.values())
     write_table(results / RUNS, runs)
     write_table(results / CELLS, summarise(runs))
     seal(results, "tables", [results / RUNS, results / CELLS])
-
-
-def collect_runs(results: Path, matrix: Matrix) -> pd.DataFrame:
-    """One row for each run of ``matrix``, in its order."""
-    found, problems = [], []
-    for cell in matrix.cells.values():
-        for seed in cell.seeds:
-            path = results / file_of(cell.run(seed), "windows.parquet")
-            try:
-                if not path.exists():
-                    raise BadInput([f"{path}: missing; run the study again to make it"])
-                if (content := read_metadata(path))["spec"] != cell.of_seed(seed).canonical():
-                    raise BadInput([f"{path}: is of another specification: {content['spec']}"])
-                found.append(content)
-            except BadInput as error:
-                problems += error.problems
-    if problems:
-        raise BadInput(problems)
-    return runs_of(found)
-
-
-def runs_of(found: Iterable[dict[str, Any]]) -> pd.DataFrame:
-    """One row for each run, from the metadata of its windows."""
-    return pd.DataFrame([_row(content) for content in found]).astype(NULLABLE)
 
 
 def summarise(runs: pd.DataFrame) -> pd.DataFrame:
@@ -93,16 +66,3 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
         row["steps_per_second_median"] = group["steps_per_second"].median()
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-def _row(found: dict[str, Any]) -> dict[str, Any]:
-    spec = parse(found["spec"])
-    outcome, made = found["outcome"], found["provenance"]
-    return {
-        **spec.columns(spec.seeds[0]),
-        **outcome,
-        "recording": recording_of(found["run"]),
-        "git_commit": made["git_commit"],
-        "dirty": made["dirty"],
-        "spec": found["spec"],
-    }

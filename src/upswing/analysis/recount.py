@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from upswing.analysis.ablation import changes
-from upswing.analysis.aggregate import runs_of, summarise
+from upswing.analysis.aggregate import summarise
 from upswing.analysis.beyond_tables import OF_A_CANDIDATE, OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.search import chosen
 from upswing.analysis.verdicts import LEDGER, judge_all
@@ -19,6 +19,7 @@ from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
 from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
+from upswing.runs.rows import framed, row_of
 from upswing.study.claims import Claim, canonical_claims
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
@@ -54,7 +55,11 @@ def recount(
         found: the metadata of every run's windows, by the runs' ids.
         claims: those to judge by; without, or with others than were judged by, verdicts are left out.
     """
-    runs = runs_of(found[run] for run in matrix.runs)
+    runs = framed(
+        row_of(cell, seed, found[cell.run(seed)])
+        for cell in matrix.cells.values()
+        for seed in cell.seeds
+    )
     there = Recounted(results, runs)
     yield from _held(RUNS, lambda: read_runs(results, list(matrix.runs)), lambda: runs)
     yield from _held(CELLS, lambda: read_cells(results, matrix.cells), lambda: summarise(runs))

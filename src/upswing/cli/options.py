@@ -1,9 +1,12 @@
 """What several subcommands are given: the folder of results, and files beside it."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from upswing.study.config import Study
 
 RESULTS = Path("results")
 """The folder of results where none is given."""
@@ -30,9 +33,24 @@ Sweeps = Annotated[Path, typer.Option(metavar="FILE", help="The file of sweeps."
 Templates = Annotated[Path, typer.Option(metavar="FOLDER", help="The templates of the page.")]
 StudyText = Annotated[str, typer.Argument(metavar="STUDY", help="The study in JSON.")]
 
+AskedStudy = Annotated[
+    str,
+    typer.Option(
+        "--study", metavar="JSON", help="The study; without it, the one the folder is of."
+    ),
+]
+"""The study as the workflow asks for it, so that a job depends on no more of it than it needs."""
+
 CLAIMS = Path("config/claims.yaml")
 SWEEPS = Path("config/readings.yaml")
 TEMPLATES = Path("report")
+
+
+def asked_study(text: str, results: Path) -> "Study":
+    """The study that was asked for, or the one that the folder is of."""
+    from upswing.runs.study_file import parse_study, read_study
+
+    return parse_study(text, "study") if text else read_study(results)
 
 
 def results_folder(named: Path | None, positional: Path | None = None) -> Path:

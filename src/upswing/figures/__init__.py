@@ -8,6 +8,7 @@ other is drawn where a study names it under ``figures``.
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
 from upswing.runs.files.atomic import written
@@ -15,6 +16,9 @@ from upswing.runs.files.ledger import seal
 from upswing.study.errors import BadInput, near
 from upswing.study.loading import load, parts, source_of
 from upswing.study.paths import FIGURES as FIGURES_FOLDER
+
+if TYPE_CHECKING:
+    from upswing.study.config import Study
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -73,17 +77,26 @@ def drawable(cells: Iterable[str], changes: bool = False, asked: Iterable[str] =
     ]
 
 
-def draw(name: str, results: Path) -> None:
-    """Draw a figure from ``results``: ``figures/NAME.svg``, ``.png`` and its words in ``.json``."""
+def draw(name: str, results: Path, study: "Study | None" = None) -> None:
+    """Draw a figure: ``figures/NAME.svg``, ``.png`` and its words in ``.json``.
+
+    Args:
+        name: the figure's name, or its number in the thesis.
+        results: the folder of results.
+        study: the study that is asked for; without, the one that the folder is of.
+
+    Raises:
+        BadInput: there is no such figure, or its file is not as it should be.
+    """
     name = f"fig{int(name):02d}" if name.isdigit() else name
     if name not in FIGURES:
         raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
     from upswing.figures.panels import Drawing
     from upswing.figures.style import save
-    from upswing.runs.results import Results
+    from upswing.runs.results import OwnRuns, Results
 
     declared = FIGURES[name]
-    drawing = load("figures", name).draw(Results(results))
+    drawing = load("figures", name).draw((OwnRuns if declared.cells else Results)(results, study))
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
     place = results / FIGURES_FOLDER / name

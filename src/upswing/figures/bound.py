@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
 
-FIGURE = Declaration(
-    "What is possible at all", "§2.4.2", ("C9", "C15"), files=(), tables=(BOUND, MAPS)
-)
+FIGURE = Declaration("What is possible at all", "§2.4.2", ("C9", "C15"), tables=(BOUND, MAPS))
 THESIS, FAR_SIGHTED = "0.7", "0.97"
 NEEDED = "lowest_discount_from_hanging"
 

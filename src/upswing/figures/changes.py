@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
 
-FIGURE = Declaration(
-    "What each change buys", "", ("C8", "C9", "C10", "C12"), files=(), tables=(CHANGES,)
-)
+FIGURE = Declaration("What each change buys", "", ("C8", "C9", "C10", "C12"), tables=(CHANGES,))
 ROW = 0.15
 """Height of a cell [inch]."""
 

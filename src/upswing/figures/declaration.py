@@ -11,10 +11,6 @@ class Declaration(NamedTuple):
     claims: tuple[str, ...]  # ids of the claims it bears on
     cells: tuple[str, ...] = ()  # ids of the cells it is drawn from; none: whatever the study has
     number: int | None = None  # in the thesis
-    files: tuple[str, ...] = (
-        "trajectory.parquet",
-        "windows.parquet",
-    )  # of each run; without, the table of runs stands for all of them
     tables: tuple[
         str, ...
     ] = ()  # of the chapter beyond the thesis; with them it is drawn there alone

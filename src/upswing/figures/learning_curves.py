@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
 
-FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"), files=())
+FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"))
 WINDOWS = 40
 """Number of points of a curve."""
 

@@ -8,9 +8,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
 
-FIGURE = Declaration(
-    "All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"), files=()
-)
+FIGURE = Declaration("All cells at a glance", "", ("C3", "C6", "C8", "C9", "C10", "C12", "C13"))
 ROW = 0.19
 """Height of a cell [inch]."""
 

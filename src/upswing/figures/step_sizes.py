@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
 
-FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"), files=())
+FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11"))
 
 
 def draw(results: "Results") -> "Drawing":

@@ -1,6 +1,6 @@
 """Recordings that compare runs: all of a task, and the worst, median and best run of a claim."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +11,17 @@ from numpy.typing import NDArray
 
 from upswing.analysis.colours import rgb
 from upswing.physics.pendulum import Pendulum
+from upswing.recordings.comparison_names import comparison_names
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.tables import read_verdicts
 from upswing.runs.recording.frames import DRAWN_EVERY, FRAME, STEP, rounded
 from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
 from upswing.runs.results import Crowd, Results
 from upswing.runs.simulation import body_of
-from upswing.study.ids import CellId, cell_of, run_of, seed_of
-from upswing.study.paths import comparison
+from upswing.study.claims import Claim
+from upswing.study.errors import BadInput, near
+from upswing.study.ids import CellId, seed_of
+from upswing.study.paths import RECORDINGS, comparison
 
 POINTS = 100
 """Largest number of points of a run's line."""
@@ -31,30 +33,29 @@ RANKS = ("worst", "median", "best")
 THICK, MIDDLING, THIN = 3.0, 1.5, 0.6
 
 
-def task_names(results: Results) -> list[str]:
-    """The tasks of a study that there are comparisons of."""
-    return list(dict.fromkeys(cell.task.name for cell in results.cells.values()))
+def write_comparisons(results: Results, claims: Mapping[str, Claim]) -> list[Path]:
+    """Write all recordings that compare runs; returns their paths."""
+    names = comparison_names(claims, results.cells)
+    return [write_comparison(results, claims, name) for name in names]
 
 
-def claim_names(results: Results) -> list[str]:
-    """The claims that there are comparisons of: those that name recordings."""
-    verdicts = read_verdicts(results.folder)
-    shown = verdicts["recordings"].map(len) == len(RANKS)
-    return [str(claim) for claim in verdicts.loc[shown, "claim"]]
+def write_comparison(results: Results, claims: Mapping[str, Claim], name: str) -> Path:
+    """Write one of them, ``task-…`` or ``claim-…``; returns its path.
 
-
-def write_comparisons(results: Results) -> list[Path]:
-    """Write ``recordings/task-….rrd`` and ``recordings/claim-….rrd``; returns their paths."""
+    Raises:
+        BadInput: there is no such comparison.
+    """
+    if name not in (known := comparison_names(claims, results.cells)):
+        raise BadInput([f"comparison: {name}: no such comparison; {near(name, known)}"])
     rr.set_strict_mode(True)
-    paths = []
-    for task in task_names(results):
-        paths.append(results.folder / comparison(f"task-{task}"))
-        write_task(paths[-1], results, task)
-    for claim in claim_names(results):
-        paths.append(results.folder / comparison(f"claim-{claim}"))
-        write_claim(paths[-1], results, claim)
-    seal(results.folder, "comparisons", paths)
-    return paths
+    path = results.folder / comparison(name)
+    kind, _, of = name.partition("-")
+    if kind == "task":
+        write_task(path, results, of)
+    else:
+        write_claim(path, results, of, str(claims[of].cell))
+    seal(results.folder, f"{RECORDINGS}/{name}", [path])
+    return path
 
 
 def write_task(path: Path, results: Results, task: str) -> None:
@@ -108,11 +109,9 @@ def write_task(path: Path, results: Results, task: str) -> None:
         recording.disconnect()
 
 
-def write_claim(path: Path, results: Results, claim: str) -> None:
+def write_claim(path: Path, results: Results, claim: str, cell: str) -> None:
     """The worst, the median and the best run of a claim's cell: how they began and ended."""
-    verdicts = read_verdicts(results.folder).set_index("claim")
-    runs = [run_of(str(path)) for path in verdicts["recordings"].loc[claim]]
-    cell = cell_of(runs[0])
+    runs = [str(run) for run in results.three_of(cell)["run"]]
     body = body_of(results.cells[cell])
     limit = 1.1 * results.task(cell).angle_limit
     columns = [

@@ -7,28 +7,30 @@ is a script of its own, one for each task. (Rerun could merge the two, into othe
 import base64
 import gzip
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from upswing.runs.files.tables import read_verdicts
 from upswing.runs.recording.layout import run_layout
 from upswing.runs.results import Results
-from upswing.study.ids import cell_of, recording_id, recording_of, run_of
+from upswing.study.claims import Claim
+from upswing.study.ids import cell_of, recording_id, recording_of
 from upswing.study.paths import FIGURES
 
 RECORDINGS, LAYOUTS = "recordings", "layouts"
 """The folders of the scripts, beside the page that loads them."""
 
 
-def chosen_runs(results: Results) -> list[str]:
+def chosen_runs(results: Results, claims: Mapping[str, Claim]) -> list[str]:
     """The runs that the report shows: those of its figures, and each claim's worst, median and best."""
-    verdicts = read_verdicts(results.folder)
-    of_claims = [run_of(str(path)) for paths in verdicts["recordings"] for path in paths]
+    cells = dict.fromkeys(claim.cell for claim in claims.values() if claim.cell in results.cells)
+    of_claims = [str(run) for cell in cells for run in results.three_of(str(cell))["run"]]
     words = [
         json.loads(path.read_text("utf-8"))
         for path in sorted((results.folder / FIGURES).glob("*.json"))
     ]
-    known = set(results.runs["run"])  # a figure may be left over from an earlier study
+    # A figure may be left over from an earlier study.
+    known = {cell.run(seed) for cell in results.cells.values() for seed in cell.seeds}
     shown = [run for figure in words for run in figure["runs"] if run in known]
     return list(dict.fromkeys([*shown, *of_claims]))
 

@@ -6,10 +6,10 @@ which is why a test opens the page in a browser.
 """
 
 import gzip
-import shutil
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from upswing.recordings.comparison import claim_names, task_names
+from upswing.recordings.comparison_names import comparison_names
 from upswing.recordings.content_policy import with_hashes
 from upswing.recordings.engine import engine
 from upswing.recordings.singly import (
@@ -21,45 +21,71 @@ from upswing.recordings.singly import (
     script_of_layout,
     script_of_run,
 )
+from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.results import Results
-from upswing.study.ids import recording_id
-from upswing.study.paths import VIEWER, comparison
+from upswing.study.claims import Claim
+from upswing.study.ids import recording_id, recording_of
+from upswing.study.paths import VIEWER, VIEWER_PAGE, comparison
 
 
-def write_viewer(results: Results, templates: Path) -> list[str]:
+def write_viewer(results: Results, claims: Mapping[str, Claim], templates: Path) -> list[str]:
     """Write the page, the viewer and the chosen recordings; returns the recordings' names.
 
+    What is there already and newer than what it is made from stays, and what is no longer shown goes.
+
     Args:
-        results: whose recordings are shown; figures, verdicts and comparisons must be there.
+        results: whose recordings are shown; figures and comparisons must be there.
+        claims: whose runs are shown.
         templates: the folder with ``viewer.html``.
     """
     folder = results.folder / VIEWER
-    beside = folder.with_name(f"{folder.name}.part")
-    shutil.rmtree(beside, ignore_errors=True)
     for inner in (RECORDINGS, LAYOUTS):
-        (beside / inner).mkdir(parents=True)
-    page = with_hashes((templates / "viewer.html").read_text("utf-8"))
-    (beside / "index.html").write_text(page, "utf-8")
-    viewer = engine()
-    (beside / "viewer.js").write_bytes(gzip.decompress(viewer.script))
-    (beside / "engine.js").write_text(script_of_compressed("engine", viewer.program), "ascii")
-    for task in sorted({cell.task.name for cell in results.cells.values()}):
-        (beside / LAYOUTS / f"{task}.js").write_text(script_of_layout(results, task), "ascii")
+        (folder / inner).mkdir(parents=True, exist_ok=True)
+    _write_engine(folder)
+    tasks = sorted({cell.task.name for cell in results.cells.values()})
+    for task in tasks:
+        _write(folder / LAYOUTS / f"{task}.js", script_of_layout(results, task))
     names = []
-    for kind, one_of in (("task", task_names(results)), ("claim", claim_names(results))):
-        for each in one_of:
-            names.append(f"{kind}-{each}")
-            recording = results.folder / comparison(names[-1])
-            _write_script(beside, names[-1], script_of(names[-1], recording.read_bytes()))
-    for run in chosen_runs(results):
+    for name in comparison_names(claims, results.cells):
+        source = results.folder / comparison(name)
+        _renew(folder, name, source, lambda n=name, s=source: script_of(n, s.read_bytes()))  # type: ignore[misc]
+        names.append(name)
+    for run in chosen_runs(results, claims):
+        source = results.folder / recording_of(run)
+        _renew(folder, recording_id(run), source, lambda r=run: script_of_run(results, r))  # type: ignore[misc]
         names.append(recording_id(run))
-        _write_script(beside, names[-1], script_of_run(results, run))
-    shutil.rmtree(folder, ignore_errors=True)
-    beside.rename(folder)
+    for inner, shown in ((RECORDINGS, names), (LAYOUTS, tasks)):
+        for path in (folder / inner).iterdir():
+            if path.stem not in shown:
+                path.unlink()
+    page = with_hashes((templates / "viewer.html").read_text("utf-8"))
+    _write(results.folder / VIEWER_PAGE, page)
     seal(results.folder, "viewer", [folder])
     return names
 
 
-def _write_script(folder: Path, name: str, script: str) -> None:
-    (folder / RECORDINGS / f"{name}.js").write_text(script, "ascii")
+def _write_engine(folder: Path) -> None:
+    """The viewer of the installed Rerun, if it is not that which is there."""
+    viewer = engine()
+    for name, content in (
+        ("viewer.js", gzip.decompress(viewer.script).decode("utf-8")),
+        ("engine.js", script_of_compressed("engine", viewer.program)),
+    ):
+        path = folder / name
+        if not path.is_file() or path.read_bytes() != content.encode("utf-8"):
+            _write(path, content)
+
+
+def _renew(folder: Path, name: str, source: Path, script: Callable[[], str]) -> None:
+    """Write the script of a recording, if it is older than the recording."""
+    path = folder / RECORDINGS / f"{name}.js"
+    if not source.is_file():
+        raise FileNotFoundError(f"{source}: missing; run the study again")
+    if not path.is_file() or path.stat().st_mtime_ns <= source.stat().st_mtime_ns:
+        _write(path, script())
+
+
+def _write(path: Path, text: str) -> None:
+    with written(path) as beside:
+        beside.write_text(text, "utf-8")

@@ -3,7 +3,7 @@
 Nothing here looks at the disk, but for the files that a page shows only where they are there.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +12,7 @@ from upswing.figures import FIGURES, NAMES, drawable
 from upswing.recordings.comparison_names import comparison_names
 from upswing.study.claims import Claim
 from upswing.study.config import Study
-from upswing.study.ids import file_of
+from upswing.study.ids import KNOWN_FILE, file_of
 from upswing.study.matrix import Matrix
 from upswing.study.paths import (
     BEYOND,
@@ -33,7 +33,7 @@ from upswing.study.paths import (
     SHORTEST,
     STUDY,
     VERDICTS,
-    VIEWER,
+    VIEWER_PAGE,
     comparison,
     figure,
     figure_of_sweep,
@@ -145,7 +145,7 @@ class Targets:
         """What a study is run for, besides the files of its runs (``Matrix.wanted``)."""
         return [
             self.page[0],
-            *self._below(VIEWER),
+            *self._below(VIEWER_PAGE),
             *self.tables,
             *self.pictures(*PICTURE),
             *self.comparisons,
@@ -157,7 +157,7 @@ class Targets:
         """What follows training and takes seconds: made again where nobody knows how it was made."""
         changes = self._below(CHANGES) if self.changes else []
         return [
-            *self._below(STUDY, VIEWER),
+            *self._below(STUDY, VIEWER_PAGE),
             *self.tables,
             *self.comparisons,
             *self.pictures(*PICTURE),
@@ -176,18 +176,30 @@ class Targets:
         return self._below(*(figure(name, kind) for name in self.figures for kind in kinds))
 
     def of_figure(self, name: str) -> list[str]:
-        """What a figure is drawn from, besides the table of runs.
-
-        A file of the first run of each job stands for all of them, which are written together.
-        """
+        """What a figure is drawn from: its own cells, or whatever the study has."""
         declared = FIGURES[name]
-        runs = [
-            self.matrix.cells[cell].run(block.seeds[0])
-            for cell in declared.cells or self.matrix.cells
-            for block in self.matrix.blocks
-        ]
+        runs = self.of_cells(declared.cells) if declared.cells else self._below(RUNS)
+        return [*runs, *self._below(*declared.tables)]
+
+    def of_comparison(self, name: str) -> list[str]:
+        """What a recording that compares runs is made from."""
+        return self.of_cells(self.cells_of_comparison(name))
+
+    def cells_of_comparison(self, name: str) -> list[str]:
+        """The cells of a task, or that of a claim, by the name of their recording."""
+        kind, _, of = name.partition("-")
+        if kind == "claim":
+            return [str(self.claims[of].cell)]
+        return [cell for cell, spec in self.matrix.cells.items() if spec.task.name == of]
+
+    def of_cells(self, cells: Iterable[str]) -> list[str]:
+        """A file of each job of these cells: it stands for all of the job's, written together."""
         return self._below(
-            *declared.tables, *(file_of(run, kind) for run in runs for kind in declared.files)
+            *(
+                file_of(self.matrix.cells[cell].run(block.seeds[0]), KNOWN_FILE)
+                for cell in cells
+                for block in self.matrix.blocks
+            )
         )
 
     def of_page(self, asked: Collection[str]) -> list[str]:

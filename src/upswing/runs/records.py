@@ -12,12 +12,16 @@ from typing import Any
 
 from upswing.runs.files.ledger import ledger_of_run, ledger_path, read_ledger
 from upswing.study.errors import BadInput
-from upswing.study.ids import RUN_FILES, file_of
+from upswing.study.ids import KNOWN_FILE, RUN_FILES, file_of
 from upswing.study.matrix import Matrix
+from upswing.study.paths import VIEWER_PAGE
 from upswing.study.spec import Spec
 
 UNKNOWN = "unknown"
 """The param of a file whose making is forgotten; no job asks for it, so the file is made again."""
+
+INCOMPLETE = "incomplete"
+"""The param of a file beside which another of its job is missing; it is made again likewise."""
 
 
 def restore(results: str, matrix: Matrix, quick: Sequence[str], slow: Sequence[str]) -> list[str]:
@@ -40,6 +44,7 @@ def restore(results: str, matrix: Matrix, quick: Sequence[str], slow: Sequence[s
     for path in quick:
         if Path(path).exists() and records.params(path) is None:
             records.write(path, "forgotten", [UNKNOWN])
+    _notice_missing(results, records)
     unknown = [path for path in slow if Path(path).exists() and records.params(path) is None]
     for path in unknown:
         records.forget(path)
@@ -48,6 +53,17 @@ def restore(results: str, matrix: Matrix, quick: Sequence[str], slow: Sequence[s
             job = matrix.job(cell, block)
             unknown += _restore_job(results, f"train_{block.name}", job, records)
     return unknown
+
+
+def _notice_missing(results: str, records: "Records") -> None:
+    """Have the viewer made again if a file is missing that it wrote besides its page."""
+    page = f"{results}/{VIEWER_PAGE}"
+    try:
+        files = read_ledger(ledger_path(Path(results), "viewer")).files
+    except BadInput:
+        return
+    if Path(page).exists() and not all(Path(results, file).exists() for file in files):
+        records.write(page, "viewer", [INCOMPLETE])
 
 
 def taken_as_they_are(results: str, unknown: Sequence[str]) -> str:
@@ -64,20 +80,23 @@ def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iter
     asked, single = job.canonical(), job.of_seed(0).canonical()
     for seed in job.seeds:
         run = job.run(seed)
-        paths = [f"{results}/{file_of(run, kind)}" for kind in RUN_FILES]
-        there = [path for path in paths if Path(path).exists()]
-        made = _made_from(Path(results), run) if there else None
+        path = f"{results}/{file_of(run, KNOWN_FILE)}"
+        if not Path(path).exists():
+            continue
+        if not all(Path(results, file_of(run, kind)).exists() for kind in RUN_FILES):
+            records.write(path, rule, [INCOMPLETE])
+            continue
+        known = records.params(path)
+        made = _made_from(Path(results), run)
         if made is not None and made[0] == single.replace('"seeds":[0]', f'"seeds":[{seed}]'):
             made = asked, made[1]  # as the whole job is asked for
-        for path in there:
-            known = records.params(path)
-            if made is None:
-                if known is None:
-                    records.forget(path)
-                    yield path
-            # A record that says what is asked now must be right. One that does not makes the job run.
-            elif known is None or (repr(asked) in known and known != sorted(map(repr, made))):
-                records.write(path, rule, made)
+        if made is None:
+            if known is None:
+                records.forget(path)
+                yield path
+        # A record that says what is asked now must be right. One that does not makes the job run.
+        elif known is None or (repr(asked) in known and known != sorted(map(repr, made))):
+            records.write(path, rule, made)
 
 
 def _made_from(results: Path, run: str) -> tuple[str, str] | None:

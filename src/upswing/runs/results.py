@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from upswing.runs.files.tables import read_runs
 from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
 from upswing.runs.files.typed_table import read_table
+from upswing.runs.rows import collected
 from upswing.runs.study_file import read_study
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
@@ -50,10 +51,17 @@ class Crowd(NamedTuple):
 
 
 class Results:
-    """A folder of results, read for drawing."""
+    """A folder of results, read for drawing.
 
-    def __init__(self, folder: Path) -> None:
+    Args:
+        folder: the folder.
+        study: the study that is asked for; without, the one that the folder is of.
+    """
+
+    def __init__(self, folder: Path, study: Study | None = None) -> None:
         self.folder = folder
+        if study is not None:
+            self.__dict__["study"] = study
 
     @cached_property
     def study(self) -> Study:
@@ -107,20 +115,20 @@ class Results:
     def in_order(self, cell: str) -> pd.DataFrame:
         """The rows of a cell's runs, the worst first."""
         order = self.task(cell).order_of_runs
-        runs = self.with_measures(list(order))
-        return runs[runs["cell"] == cell].sort_values(list(order), ascending=list(order.values()))
+        runs = self.cell(cell)
+        self.check_measures(runs, list(order))
+        return runs.sort_values(list(order), ascending=list(order.values()))
 
-    def with_measures(self, measures: Sequence[str]) -> pd.DataFrame:
-        """The table of runs; ``BadInput`` if it lacks a measure, or if one is no number."""
+    def check_measures(self, runs: pd.DataFrame, measures: Sequence[str]) -> None:
+        """Raise ``BadInput`` if rows of the table of runs lack a measure, or if one is no number."""
         for name in measures:
-            if name not in self.runs or not pd.api.types.is_numeric_dtype(self.runs[name]):
+            if name not in runs or not pd.api.types.is_numeric_dtype(runs[name]):
                 raise BadInput(
                     [
                         f"{self.folder / RUNS}: {name}: there is no such column of numbers; "
                         f"`upswing tables {self.folder}` makes the table anew"
                     ]
                 )
-        return self.runs
 
     def median_run(self, cell: str) -> OneRun:
         """The run in the middle of a cell; of an even number, the worse of the two in the middle."""
@@ -164,3 +172,23 @@ class Results:
         path = self.folder / file_of(run, f"{kind}.parquet")
         columns = OF_A_TRAJECTORY if kind == "trajectory" else OF_WINDOWS
         return read_table(path, columns, "run the study again to make it")
+
+
+class OwnRuns(Results):
+    """Results of which only some cells are read, from their own runs' files and not from the tables.
+
+    So what is made of them depends on these cells and on nothing else.
+    """
+
+    def cell(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs."""
+        if cell not in self.cells:
+            raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
+        if cell not in self._read_cells:
+            rows = collected(self.folder, [self.cells[cell]])
+            self._read_cells[cell] = rows.assign(cell=cell)
+        return self._read_cells[cell]
+
+    @cached_property
+    def _read_cells(self) -> dict[str, pd.DataFrame]:
+        return {}

@@ -80,7 +80,7 @@ class Study(Strict):
     )
     seeds: Seeds = Field(description="How many seeds a cell has (0, 1, …), or a list of them.")
     seeds_per_job: Annotated[int, Field(ge=1, le=1000)] = Field(
-        default=15, description="Runs that share one job; more seeds then only add jobs."
+        default=30, description="Number of runs that share one job; more seeds then only add jobs."
     )
     epsilon: Share = Field(default=0.01, description="Share ε of random actions (§4.4).")
     discount: Discount = Field(default=0.7, description="Discount γ (§4.5.1).")

@@ -68,7 +68,7 @@ def _source(module: str) -> Path | None:
 
 @cache
 def _read(module: str) -> Read:
-    """A checksum of a module's syntax, and what it imports from this package: modules, and names in them."""
+    """A checksum of a module's syntax; and what of this package it imports, modules and names."""
     path = _source(module)
     if path is None:
         raise ModuleNotFoundError(f"no source for module {module}")

@@ -11,6 +11,10 @@ from upswing.study.names import NO_ALPHA, alpha_text
 RUN_FILES = ("trajectory.parquet", "windows.parquet", "weights.safetensors", "rrd")
 """The endings of a run's files."""
 
+KNOWN_FILE = "windows.parquet"
+"""The one that the workflow knows. It is written last and says what the others are; so a plan has a
+quarter of the files. Where one of the others is missing, ``runs/records.py`` has the job run again."""
+
 
 class CellId(NamedTuple):
     """A cell's id in its parts."""

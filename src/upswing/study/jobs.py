@@ -57,5 +57,5 @@ CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
     ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
 )
-COMPARISONS = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
+COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
 VIEWER = Code(("upswing.recordings.viewer",), ("rerun-sdk",))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from upswing.study.architecture import architecture_named
 from upswing.study.config import Experiment, Study
-from upswing.study.ids import RUN_FILES, cell_id, file_of
+from upswing.study.ids import KNOWN_FILE, cell_id, file_of
 from upswing.study.spec import Spec
 from upswing.study.task import task_named
 
@@ -70,12 +70,10 @@ class Matrix:
         of the runs.
         """
         for spec in self.cells.values():
-            folder = (results / file_of(spec.run(spec.seeds[0]), RUN_FILES[0])).parent
+            folder = (results / file_of(spec.run(spec.seeds[0]), KNOWN_FILE)).parent
             there = {path.name for path in folder.iterdir()} if folder.is_dir() else set[str]()
             for block in self.blocks:
-                files = [
-                    file_of(spec.run(seed), kind) for seed in block.seeds for kind in RUN_FILES
-                ]
+                files = [file_of(spec.run(seed), KNOWN_FILE) for seed in block.seeds]
                 missing = (file for file in files if file.rpartition("/")[2] not in there)
                 yield f"{results}/{next(missing, files[0])}"
 

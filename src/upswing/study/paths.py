@@ -35,6 +35,8 @@ PAGE = "report/index.html"
 RUNS_CSV = "report/runs.csv"
 EVIDENCE_CSV = "report/evidence.csv"
 VIEWER = "report/viewer"
+VIEWER_PAGE = f"{VIEWER}/index.html"
+"""The page of the viewer, written last: with it the viewer is complete."""
 
 BEYOND = "beyond"
 """The folder, in that of the thesis's study, of the study beyond it."""

@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from tests.helpers import ARCHITECTURES
-from upswing.analysis.aggregate import collect_runs, summarise
+from upswing.analysis.aggregate import summarise
+from upswing.runs.rows import collected
 from upswing.runs.train import train
 from upswing.study.config import validated
 from upswing.study.errors import BadInput
@@ -39,7 +40,7 @@ def results(tmp_path):
 
 
 def test_one_row_for_each_run(results):
-    runs = collect_runs(*results)
+    runs = collected(results[0], results[1].cells.values())
     assert list(runs["run"]) == list(results[1].runs)
     assert runs["alpha"].isna().tolist() == [False] * 3 + [True] * 3
 
@@ -48,7 +49,7 @@ def test_a_missing_run_is_named(results):
     folder, matrix = results
     (folder / "runs/balancing/idle/alpha-none/seed-2.windows.parquet").unlink()
     with pytest.raises(BadInput, match=r"alpha-none/seed-2\.windows\.parquet: missing"):
-        collect_runs(folder, matrix)
+        collected(folder, matrix.cells.values())
 
 
 def test_a_mislabelled_run_is_caught(results):
@@ -60,7 +61,7 @@ def test_a_mislabelled_run_is_caught(results):
     with pytest.raises(
         BadInput, match=r"table/alpha-1/seed-0\.windows\.parquet: is of another spec"
     ):
-        collect_runs(folder, matrix)
+        collected(folder, matrix.cells.values())
 
 
 def test_a_cell_is_summed_up_over_its_runs():

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from tests.helpers import ARCHITECTURES
-from upswing.analysis.aggregate import collect_runs
 from upswing.analysis.robustness.selection import CELLS
 from upswing.analysis.robustness.write import write_readings
 from upswing.figures.readings import draw_readings
+from upswing.runs.rows import collected
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import write_group
 from upswing.runs.train import train
@@ -197,7 +197,7 @@ def test_a_swept_run_is_the_run_that_training_makes(swept, tmp_path):
     cells = {spec.cell for spec in specs(sweeps["tables"], STUDY, under)}
     for cell in set(matrix.cells) - cells:
         train(matrix.cells[cell], tmp_path)
-    trained = collect_runs(tmp_path, matrix).set_index("run")
+    trained = collected(tmp_path, matrix.cells.values()).set_index("run")
     assert len(rows) == 6
     for row in rows.to_dict("records"):
         compared = ["falls", "upright_share", "mean_reward", "greedy_success_share"]

@@ -4,7 +4,15 @@ from typing import Annotated, Any
 
 import typer
 
-from upswing.cli.options import CLAIMS, Claims, Named, Positional, results_folder
+from upswing.cli.options import (
+    CLAIMS,
+    AskedStudy,
+    Claims,
+    Named,
+    Positional,
+    asked_study,
+    results_folder,
+)
 from upswing.cli.panel import Job, Panel
 
 panel = Panel("Look")
@@ -56,11 +64,13 @@ def figure(
     ],
     positional: Positional = None,
     results: Named = None,
+    study: AskedStudy = "",
 ) -> None:
     """Draw a figure from the results, as SVG and PNG."""
     from upswing.figures import draw
 
-    draw(name, results_folder(results, positional))
+    folder = results_folder(results, positional)
+    draw(name, folder, asked_study(study, folder))
 
 
 @panel.subcommand(

@@ -8,12 +8,14 @@ from upswing.cli.options import (
     CLAIMS,
     SWEEPS,
     TEMPLATES,
+    AskedStudy,
     Claims,
     Named,
     Positional,
     StudyText,
     Sweeps,
     Templates,
+    asked_study,
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
@@ -58,25 +60,54 @@ def tables(positional: Positional = None, results: Named = None) -> None:
     write_tables(folder, Matrix(read_study(folder)))
 
 
-@panel.subcommand("comparisons", cls=Job)
-def comparisons(positional: Positional = None, results: Named = None) -> None:
-    """Write the recordings that compare runs."""
-    from upswing.recordings.comparison import write_comparisons
-    from upswing.runs.results import Results
+@panel.subcommand("comparison", cls=Job)
+def comparison(
+    name: Annotated[str, typer.Argument(help="task-… or claim-…: task-balancing, claim-C13.")],
+    positional: Positional = None,
+    results: Named = None,
+    study: AskedStudy = "",
+    claims: Claims = CLAIMS,
+) -> None:
+    """Write a recording that compares runs: all of a task, or those that show a claim."""
+    from upswing.recordings.comparison import write_comparison
+    from upswing.runs.results import OwnRuns
+    from upswing.study.claims import load_claims
 
-    for path in write_comparisons(Results(results_folder(results, positional))):
+    folder = results_folder(results, positional)
+    found = OwnRuns(folder, asked_study(study, folder))
+    print(write_comparison(found, load_claims(claims), name))
+
+
+@panel.subcommand("comparisons", cls=Job)
+def comparisons(
+    positional: Positional = None, results: Named = None, claims: Claims = CLAIMS
+) -> None:
+    """Write all recordings that compare runs."""
+    from upswing.recordings.comparison import write_comparisons
+    from upswing.runs.results import OwnRuns
+    from upswing.study.claims import load_claims
+
+    found = OwnRuns(results_folder(results, positional))
+    for path in write_comparisons(found, load_claims(claims)):
         print(path)
 
 
 @panel.subcommand("viewer", cls=Job)
 def viewer(
-    positional: Positional = None, results: Named = None, templates: Templates = TEMPLATES
+    positional: Positional = None,
+    results: Named = None,
+    study: AskedStudy = "",
+    claims: Claims = CLAIMS,
+    templates: Templates = TEMPLATES,
 ) -> None:
     """Write report/viewer: the report's recordings, to open without a server."""
     from upswing.recordings.viewer import write_viewer
-    from upswing.runs.results import Results
+    from upswing.runs.results import OwnRuns
+    from upswing.study.claims import load_claims
 
-    for name in write_viewer(Results(results_folder(results, positional)), templates):
+    folder = results_folder(results, positional)
+    found = OwnRuns(folder, asked_study(study, folder))
+    for name in write_viewer(found, load_claims(claims), templates):
         print(name)
 
 
@@ -123,19 +154,16 @@ def sweep(
     group: Annotated[str, typer.Argument(help="The name of the group of readings.")],
     positional: Positional = None,
     results: Named = None,
-    study: Annotated[
-        str, typer.Option(metavar="JSON", help="The study; without it, the one the folder is of.")
-    ] = "",
+    study: AskedStudy = "",
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Run cells of the study under a group of other readings and keep the measures."""
-    from upswing.runs.study_file import parse_study, read_study
     from upswing.runs.sweep import write_group
     from upswing.study.errors import BadInput, near
     from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
-    asked = parse_study(study, "study") if study else read_study(folder)
+    asked = asked_study(study, folder)
     known = load_sweeps(sweeps, asked)
     if name not in known:
         raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])

@@ -2,8 +2,8 @@
 
 from collections.abc import Collection
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -13,6 +13,9 @@ from upswing.runs.files.typed_table import Columns, read_table
 from upswing.study.errors import BadInput
 from upswing.study.ids import recording_of
 from upswing.study.paths import CELLS, EVIDENCE, RUNS, VERDICTS
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NULLABLE = {
     "alpha": "float64",
@@ -74,7 +77,7 @@ OF_A_COMPARISON: Columns = {
 }  # fmt: skip
 
 
-def write_table(path: Path, frame: pd.DataFrame) -> None:
+def write_table(path: Path, frame: "pd.DataFrame") -> None:
     """Write a table with its provenance."""
     table = pa.Table.from_pandas(frame, preserve_index=False)
     described = {**(table.schema.metadata or {}), **metadata()}
@@ -82,7 +85,7 @@ def write_table(path: Path, frame: pd.DataFrame) -> None:
         pq.write_table(table.replace_schema_metadata(described), beside, compression="zstd")
 
 
-def read_runs(results: Path, runs: Collection[str], more: Columns | None = None) -> pd.DataFrame:
+def read_runs(results: Path, runs: Collection[str], more: Columns | None = None) -> "pd.DataFrame":
     """The table of runs, with those columns ``more``; each of its rows is one of ``runs``.
 
     Raises:
@@ -100,7 +103,7 @@ def read_runs(results: Path, runs: Collection[str], more: Columns | None = None)
     return frame
 
 
-def read_cells(results: Path, cells: Collection[str]) -> pd.DataFrame:
+def read_cells(results: Path, cells: Collection[str]) -> "pd.DataFrame":
     """The table of cells; there is one row for each of ``cells``."""
     path, remedy = results / CELLS, f"`upswing tables {results}` makes it"
     frame = read_table(path, OF_A_CELL, remedy)
@@ -110,7 +113,7 @@ def read_cells(results: Path, cells: Collection[str]) -> pd.DataFrame:
     return frame
 
 
-def read_verdicts(results: Path) -> pd.DataFrame:
+def read_verdicts(results: Path) -> "pd.DataFrame":
     """The table of verdicts."""
     path, remedy = results / VERDICTS, f"`upswing verdicts {results}` makes it"
     frame = read_table(path, OF_A_VERDICT, remedy)
@@ -119,7 +122,7 @@ def read_verdicts(results: Path) -> pd.DataFrame:
     return frame
 
 
-def read_evidence(results: Path) -> pd.DataFrame:
+def read_evidence(results: Path) -> "pd.DataFrame":
     """The table of evidence."""
     path, remedy = results / EVIDENCE, f"`upswing verdicts {results}` makes it"
     frame = read_table(path, OF_A_COMPARISON, remedy)
@@ -128,13 +131,13 @@ def read_evidence(results: Path) -> pd.DataFrame:
     return frame
 
 
-def _once(path: Path, frame: pd.DataFrame, key: list[str], remedy: str) -> None:
+def _once(path: Path, frame: "pd.DataFrame", key: list[str], remedy: str) -> None:
     twice = frame.loc[frame.duplicated(key), key]
     if len(twice):
         words = ", ".join(str(value) for value in twice.iloc[0])
         raise BadInput([f"{path}: {words}: is there twice; {remedy}"])
 
 
-def _judged(path: Path, frame: pd.DataFrame, remedy: str) -> None:
+def _judged(path: Path, frame: "pd.DataFrame", remedy: str) -> None:
     if len(other := frame.loc[~frame["verdict"].isin(JUDGED), "verdict"]):
         raise BadInput([f"{path}: {other.iloc[0]}: is no verdict; {remedy}"])

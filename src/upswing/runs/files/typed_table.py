@@ -2,12 +2,15 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from upswing.study.errors import BadInput, near
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Columns = Mapping[str, str]
 """What each column holds: ``text``, ``number``, ``whole``, ``truth`` or ``texts``.
@@ -38,7 +41,7 @@ HOLDS: dict[str, Callable[[pa.DataType], bool]] = {
 }
 
 
-def read_table(path: Path, columns: Columns, remedy: str, *, empty: bool = False) -> pd.DataFrame:
+def read_table(path: Path, columns: Columns, remedy: str, *, empty: bool = False) -> "pd.DataFrame":
     """The table in a file, with all columns that it has.
 
     Args:
