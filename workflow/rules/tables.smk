@@ -36,8 +36,7 @@ rule tables:
 
 rule verdicts:
     input:
-        f"{RESULTS}/study.json",
-        f"{RESULTS}/tables/runs.parquet",
+        FILES.of_cells(FILES.judged_cells),
     output:
         f"{RESULTS}/tables/verdicts.parquet",
         f"{RESULTS}/tables/evidence.parquet",
@@ -47,6 +46,7 @@ rule verdicts:
         f"{RESULTS}/benchmarks/verdicts.tsv"
     params:
         claims=lambda wildcards: CLAIMS_TEXT,
+        readings=lambda wildcards: STUDY.readings.model_dump_json(),
         code=jobs.VERDICTS.fingerprint,
     shell:
-        "upswing verdicts {RESULTS:q} > {log:q} 2>&1"
+        "upswing verdicts {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

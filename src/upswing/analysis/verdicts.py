@@ -13,8 +13,17 @@ from upswing.analysis.contraction import PROBLEMS, contracts
 from upswing.analysis.statistics import Estimate
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
-from upswing.runs.results import Results
-from upswing.study.claims import Bound, Claim, Part, Verdict, canonical_claims, weakest
+from upswing.runs.results import OwnRuns, Results
+from upswing.study.claims import (
+    Bound,
+    Claim,
+    Part,
+    Verdict,
+    canonical_claims,
+    cells_of_claims,
+    weakest,
+)
+from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
 from upswing.study.paths import EVIDENCE, VERDICTS
 
@@ -47,14 +56,21 @@ class Evidence(NamedTuple):
     because: str
 
 
-def write_verdicts(results: Path, claims: Mapping[str, Claim]) -> pd.DataFrame:
+def write_verdicts(
+    results: Path, claims: Mapping[str, Claim], study: Study | None = None
+) -> pd.DataFrame:
     """Judge every claim by the runs in ``results``; writes and returns the table of verdicts.
 
+    Args:
+        results: the folder; the runs' own files are read, and only those of cells that claims name.
+        claims: the claims.
+        study: the study that is asked for; without, the one that the folder is of.
+
     Raises:
-        BadInput: runs of the study are missing, or a claim asks for a measure that there is not.
+        BadInput: such runs are missing, or a claim asks for a measure that there is not.
     """
-    found = Results(results)
-    found.check_complete()  # whatever the claims ask
+    found = OwnRuns(results, study)
+    found.check_complete({cell for _, cell in cells_of_claims(claims)})
     verdicts, evidence = judge_all(found, claims)
     write_table(results / EVIDENCE, evidence)
     write_table(results / VERDICTS, verdicts)

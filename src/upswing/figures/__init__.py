@@ -93,10 +93,10 @@ def draw(name: str, results: Path, study: "Study | None" = None) -> None:
         raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
     from upswing.figures.panels import Drawing
     from upswing.figures.style import save
-    from upswing.runs.results import OwnRuns, Results
+    from upswing.runs.results import OwnRuns
 
     declared = FIGURES[name]
-    drawing = load("figures", name).draw((OwnRuns if declared.cells else Results)(results, study))
+    drawing = load("figures", name).draw(OwnRuns(results, study))
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
     place = results / FIGURES_FOLDER / name

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from upswing.figures import FIGURES, NAMES, drawable
 from upswing.recordings.comparison_names import comparison_names
-from upswing.study.claims import Claim
+from upswing.study.claims import Claim, cells_of_claims
 from upswing.study.config import Study
 from upswing.study.ids import KNOWN_FILE, file_of
 from upswing.study.matrix import Matrix
@@ -178,8 +178,14 @@ class Targets:
     def of_figure(self, name: str) -> list[str]:
         """What a figure is drawn from: its own cells, or whatever the study has."""
         declared = FIGURES[name]
-        runs = self.of_cells(declared.cells) if declared.cells else self._below(RUNS)
+        runs = self.of_cells(declared.cells or self.matrix.cells)
         return [*runs, *self._below(*declared.tables)]
+
+    @cached_property
+    def judged_cells(self) -> list[str]:
+        """The cells of the study that the claims name."""
+        named = {cell for _, cell in cells_of_claims(self.claims)}
+        return [cell for cell in self.matrix.cells if cell in named]
 
     def of_comparison(self, name: str) -> list[str]:
         """What a recording that compares runs is made from."""

@@ -1,6 +1,6 @@
 """Reading a folder of results: the runs of a cell, their windows, the worst, median and best run."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -89,10 +89,10 @@ class Results:
             raise BadInput(incomplete)
         return frame
 
-    def check_complete(self) -> None:
-        """Raise ``BadInput`` if a run, or what shows it, is missing; it names the cells."""
+    def check_complete(self, cells: Collection[str]) -> None:
+        """Raise ``BadInput`` if a run of ``cells``, or what shows it, is missing; it names the cells."""
         problems = []
-        for cell in self.cells:
+        for cell in (cell for cell in self.cells if cell in cells):
             recordings = [self.folder / path for path in self.cell(cell)["recording"]]
             if lost := [path for path in recordings if not path.is_file()]:
                 problems.append(

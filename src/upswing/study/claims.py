@@ -258,11 +258,11 @@ def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
     except ValidationError as error:
         raise BadInput(explained(Claims, error, lambda _: str(path))) from None
     if study is not None:
-        check_cells(dict(_cells_of(claims)), study, path)
+        check_cells(dict(cells_of_claims(claims)), study, path)
     return claims
 
 
-def _cells_of(claims: Mapping[str, Claim]) -> Iterator[tuple[str, str]]:
+def cells_of_claims(claims: Mapping[str, Claim]) -> Iterator[tuple[str, str]]:
     """Every cell that is named, by where it stands."""
     for name, claim in claims.items():
         if claim.cell is not None:

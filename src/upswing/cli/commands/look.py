@@ -22,6 +22,7 @@ panel = Panel("Look")
 def verdicts(
     positional: Positional = None,
     results: Named = None,
+    study: AskedStudy = "",
     claims: Claims = CLAIMS,
     details: Annotated[
         bool, typer.Option("--details", help="Also say what is measured, where, and how.")
@@ -30,12 +31,11 @@ def verdicts(
     """Judge every claim by the runs and print the verdicts; writes tables/verdicts.parquet."""
     from upswing.analysis.verdicts import write_verdicts
     from upswing.cli.shown.verdicts import print_verdicts
-    from upswing.runs.study_file import read_study
     from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
-    asked = load_claims(claims, read_study(folder))
-    print_verdicts(write_verdicts(folder, asked), details)
+    of = asked_study(study, folder)
+    print_verdicts(write_verdicts(folder, load_claims(claims, of), of), details)
 
 
 def _figures() -> list[str]:
