@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 CONFIDENCE = 0.95
 RESAMPLES = 10_000
@@ -48,6 +48,8 @@ def binomial_tail(value: float, n: int) -> Tail:
         # Half a success, of a tie, is none where successes speak for the claim.
         successes = (floor if at_least else ceil)(round(value * n, 9))
         side = "greater" if at_least else "less"
+        from scipy import stats  # it takes half a second, and pictures need no tests
+
         return float(stats.binomtest(successes, n, threshold, side).pvalue)
 
     return p_value
@@ -69,11 +71,11 @@ def normal_tail(value: float, low: float, high: float) -> Tail:
     """As if the half of an interval that faces the threshold were that of a normal distribution."""
 
     def p_value(threshold: float, at_least: bool) -> float:
-        deviation = (value - low if at_least else high - value) / _z()
+        deviation = (value - low if at_least else high - value) / _z(CONFIDENCE)
         distance = (value - threshold) if at_least else (threshold - value)
         if deviation == 0:  # the interval ends at its estimate, as at a difference of 1
             return 0.0 if distance > 0 else 1.0
-        return float(stats.norm.sf(distance / deviation))
+        return float(special.ndtr(-distance / deviation))
 
     return p_value
 
@@ -87,10 +89,10 @@ def share(successes: int, n: int, confidence: float = CONFIDENCE) -> Estimate:
     """A share k of n with Wilson's interval; from 0 to 1 of no runs at all."""
     if not n:
         return no_runs()
-    interval = stats.binomtest(successes, n).proportion_ci(confidence, method="wilson")
+    low, high = wilson(successes / n, n, confidence)
     value = successes / n
     tail = binomial_tail(value, n)
-    return Estimate(value, float(interval.low), float(interval.high), n, "share, Wilson", tail)
+    return Estimate(value, low, high, n, "share, Wilson", tail)
 
 
 def difference_of_shares(
@@ -177,9 +179,9 @@ def probability_greater(x: Sample, y: Sample) -> Estimate:
     return Estimate(value, low, high, len(a), "P(X > Y), paired, Wilson", tail)
 
 
-def wilson(value: float, n: int) -> tuple[float, float]:
+def wilson(value: float, n: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
     """Wilson's interval for a share ``value`` of ``n``, which need not be a whole number of them."""
-    z = _z()
+    z = _z(confidence)
     middle = (value + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z * sqrt(value * (1 - value) / n + z**2 / (4 * n**2)) / (1 + z**2 / n)
     # At 0 and at 1 rounding must not leave the share outside its own interval.
@@ -267,9 +269,9 @@ def _resamples(n: int) -> NDArray[np.int64]:
     return np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
 
 
-def _z() -> float:
-    """The quantile of the normal distribution for an interval of ``CONFIDENCE``."""
-    return float(stats.norm.ppf((1 + CONFIDENCE) / 2))
+def _z(confidence: float) -> float:
+    """The quantile of the normal distribution for an interval."""
+    return float(special.ndtri((1 + confidence) / 2))
 
 
 def spread(values: Sample) -> tuple[float, float]:

@@ -5,16 +5,14 @@ The *last fifth* is the last 20 % of the steps; *upright* is |φ| ≤ 20°, *abo
 """
 
 from math import copysign, floor, nan, pi, radians
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
 from upswing.physics.jit import compiled
 from upswing.physics.tasks import HORIZONTAL
 from upswing.runs.success import SUCCESS
-from upswing.study.measured import Measures
+from upswing.study.measured import Measures, Windows
 
 UPRIGHT = radians(20)
 """Half the width of *upright* [rad]."""
@@ -28,24 +26,6 @@ WINDOWS = 1_000
 NOTHING_LEARNED = copysign(nan, -1.0)
 """A mean over no steps: the NaN that x86 makes of 0/0. A run's digest holds it, so it is fixed to the
 bit and the same on every processor."""
-
-Real = NDArray[np.float64]
-Count = NDArray[np.int64]
-
-
-class Windows(NamedTuple):
-    """A run in windows of equal length (the last may be shorter); every array has shape (windows,)."""
-
-    first_step: Count
-    steps: Count
-    falls: Count
-    upright_share: Real
-    above_horizontal_share: Real
-    mean_reward: Real  # [rad²]
-    lowest_angle: Real  # [rad]
-    highest_angle: Real  # [rad]
-    highest_speed: Real  # |φ̇| [rad/s]
-    mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did
 
 
 def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures:

@@ -9,9 +9,9 @@ from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.environment import Trajectory
 from upswing.runs.evaluation import evaluate
 from upswing.runs.files.trajectory import digest, kept_steps
-from upswing.runs.metrics import Windows, in_windows, measure
+from upswing.runs.metrics import in_windows, measure
 from upswing.runs.simulation import Setting
-from upswing.study.measured import Measures
+from upswing.study.measured import Measures, Windows
 from upswing.study.spec import Spec
 
 

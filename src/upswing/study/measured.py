@@ -2,6 +2,9 @@
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class Measures(NamedTuple):
     """What is measured of a run; shares and means over its last fifth."""
@@ -32,3 +35,22 @@ class Greedy(NamedTuple):
 
 MEASURES = (*Measures._fields, *Greedy._fields, "seconds", "steps_per_second")
 """The columns of the table of runs that a claim may ask for."""
+
+
+Real = NDArray[np.float64]
+Count = NDArray[np.int64]
+
+
+class Windows(NamedTuple):
+    """A run in windows of equal length (the last may be shorter); every array has shape (windows,)."""
+
+    first_step: Count
+    steps: Count
+    falls: Count
+    upright_share: Real
+    above_horizontal_share: Real
+    mean_reward: Real  # [rad²]
+    lowest_angle: Real  # [rad]
+    highest_angle: Real  # [rad]
+    highest_speed: Real  # |φ̇| [rad/s]
+    mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did

@@ -3,19 +3,21 @@
 import json
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from upswing.physics.environment import Trajectory
 from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import KEY
 from upswing.runs.files.typed_table import Columns
-from upswing.runs.metrics import Windows
 from upswing.study.errors import BadInput
+from upswing.study.measured import Windows
+
+if TYPE_CHECKING:
+    from upswing.physics.environment import Trajectory
 
 WHOLE_AT_START = 5_000
 """The first steps, kept whole (figures 5 and 7 show them) [steps]."""
@@ -54,7 +56,7 @@ OF_WINDOWS: Columns = {
 }
 
 
-def kept_steps(trajectory: Trajectory, first_stable_step: int | None) -> NDArray[np.int64]:
+def kept_steps(trajectory: "Trajectory", first_stable_step: int | None) -> NDArray[np.int64]:
     """The steps of a trajectory that are stored, in order, shape (kept,)."""
     steps = len(trajectory.angle)
     kept = np.zeros(steps, dtype=np.bool_)
@@ -73,7 +75,7 @@ def kept_steps(trajectory: Trajectory, first_stable_step: int | None) -> NDArray
     return np.flatnonzero(kept)
 
 
-def digest(trajectory: Trajectory, steps: NDArray[np.int64], windows: Windows) -> str:
+def digest(trajectory: "Trajectory", steps: NDArray[np.int64], windows: "Windows") -> str:
     """What tells two runs apart: a checksum of the stored ``steps`` and of the windows of all steps."""
     checksum = sha256()
     for column in (*(column[steps] for column in trajectory), *windows):
@@ -82,7 +84,7 @@ def digest(trajectory: Trajectory, steps: NDArray[np.int64], windows: Windows) -
 
 
 def write_trajectory(
-    path: Path, trajectory: Trajectory, steps: NDArray[np.int64], metadata: dict[bytes, bytes]
+    path: Path, trajectory: "Trajectory", steps: NDArray[np.int64], metadata: dict[bytes, bytes]
 ) -> None:
     """Store the given ``steps`` of a trajectory."""
     columns = [steps, *(column[steps] for column in trajectory)]
@@ -91,7 +93,7 @@ def write_trajectory(
     _write(path, table)
 
 
-def write_windows(path: Path, windows: Windows, metadata: dict[bytes, bytes]) -> None:
+def write_windows(path: Path, windows: "Windows", metadata: dict[bytes, bytes]) -> None:
     """Store the windows of a run; counts as integers, all else as 32-bit numbers."""
     columns = {
         name: pa.array(column, pa.int64() if name in WINDOW_COUNTS else pa.float32())

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
-from upswing.runs.metrics import Windows
+from upswing.study.measured import Windows
 
 FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
 TIMELINES = (FRAME, STEP, SIM_TIME)

@@ -12,7 +12,6 @@ from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.files.atomic import written
-from upswing.runs.metrics import Windows
 from upswing.runs.recording.frames import (
     SIM_TIME,
     STEP,
@@ -26,7 +25,7 @@ from upswing.runs.recording.frames import (
 from upswing.runs.recording.pictures import draw_learned, draw_pendulum, draw_phase_plane
 from upswing.runs.snapshots import Snapshots
 from upswing.study.ids import recording_id
-from upswing.study.measured import Measures
+from upswing.study.measured import Measures, Windows
 
 ENVELOPE = 200
 """Largest number of windows by whose lowest and highest angle the whole run is shown."""
