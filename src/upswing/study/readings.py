@@ -1,6 +1,7 @@
 """The readings R1–R15: one meaning each for what the thesis leaves open or says in two ways."""
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
@@ -122,5 +123,12 @@ class Readings(BaseModel):
 
 def options_of(reading: str) -> list[Any]:
     """The options of a reading, the ledger's default first."""
-    field = Readings.model_json_schema()["properties"][reading]
-    return list(field["enum"]) if "enum" in field else [field["const"]]
+    return list(_options()[reading])
+
+
+@cache
+def _options() -> dict[str, tuple[Any, ...]]:
+    return {
+        name: tuple(field["enum"]) if "enum" in field else (field["const"],)
+        for name, field in Readings.model_json_schema()["properties"].items()
+    }
