@@ -13,15 +13,21 @@ from tests.workflow.small_study import FIGURES_OF_SMALL, SMALL, Edited
 from upswing.analysis.doctor import delete_orphans, examine
 
 CELLS = 5
+COMPARISONS = 7  # of two tasks, and of the five claims whose cells are there
 FOLLOWS = {
     "tables": 1,
     "verdicts": 1,
-    "comparisons": 1,
+    "comparison": COMPARISONS,
     "figure": FIGURES_OF_SMALL,
     "viewer": 1,
     "report": 1,
 }
 TRAIN = "train_seeds_0_to_1"
+# What follows from some cells: the figures that show them, the recordings of their tasks and claims.
+OF_NETWORKS = {**FOLLOWS, "figure": 4, "comparison": 3}
+OF_BALANCING = {**FOLLOWS, "figure": 5, "comparison": 5}
+OF_TABLES = {**FOLLOWS, "comparison": 5}
+OF_A_NEW_CELL = {**FOLLOWS, "figure": 3, "comparison": 1}
 
 
 @pytest.fixture(scope="module")
@@ -62,17 +68,18 @@ U = "src/upswing/"
         (U + "physics/pendulum.py", '"""The constants of §4.2.2."""', '"""Constants."""  # a comment', {}),
         (U + "runs/loop.py", "# Observe starting state s", "# observe", {}),
         (U + "report/words.py", "UNKNOWN = ", "\n\nUNKNOWN    = ", {}),
-        (U + "agents/learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {TRAIN: 1, **FOLLOWS}),
-        (U + "agents/learners/table.py", "+= share", "+= share * 1.0", {TRAIN: 2, **FOLLOWS}),
+        (U + "agents/learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {TRAIN: 1, **OF_NETWORKS}),
+        (U + "agents/learners/table.py", "+= share", "+= share * 1.0", {TRAIN: 2, **OF_TABLES}),
         (U + "physics/pendulum.py", "gravity: float = 9.81", "gravity: float = 9.80", {TRAIN: CELLS, **FOLLOWS}),
         (U + "agents/features/grid.py", "from math import floor, pi", "from math import floor, pi\nX = 1", {TRAIN: CELLS, **FOLLOWS}),
         (U + "figures/fig05.py", "5_000", "4_000", {"figure": 1, "viewer": 1, "report": 1}),
         (U + "report/words.py", 'UNKNOWN = "–"', 'UNKNOWN = "-"', {"report": 1}),
-        (U + "runs/recording/layout.py", "row_shares=[2, 3]", "row_shares=[3, 3]", {"comparisons": 1, "viewer": 1}),
+        (U + "runs/recording/layout.py", "row_shares=[2, 3]", "row_shares=[3, 3]", {"comparison": COMPARISONS, "viewer": 1}),
         ("report/parts/head.html.j2", "reproduced</h1>", "done again</h1>", {"report": 1}),
         ("report/style.css", "1.05rem" , "1.06rem", None),
         ("report/viewer.html", "← the report", "← back", {"viewer": 1}),
-        ("config/claims.yaml", "at_least: 0.98", "at_least: 0.97", {"verdicts": 1, "comparisons": 1, "viewer": 1, "report": 1}),
+        ("config/claims.yaml", "at_least: 0.98", "at_least: 0.97", {"verdicts": 1, "report": 1}),
+        (U + "figures/panels.py", "linewidth=1.8", "linewidth=1.7", {"figure": FIGURES_OF_SMALL, "viewer": 1, "report": 1}),
         ("config/claims.yaml", "C1:\n", "# a comment\nC1:\n", {}),
         ("workflow/rules/train.smk", "# Training:", "# The training:", {}),
     ],
@@ -99,15 +106,15 @@ def with_experiments(first_alphas):
     [
         (changed(), {}),
         ("# a comment\n" + yaml.safe_dump(changed()), {}),
-        (with_experiments([1, 0.5]), {TRAIN: 2, "study": 1, **FOLLOWS}),
+        (with_experiments([1, 0.5]), {TRAIN: 2, "study": 1, **OF_A_NEW_CELL}),
         (with_experiments([0.5]), None),
         (changed(seeds=4), {"train_seeds_2_to_3": CELLS, "study": 1, **FOLLOWS}),
-        (changed(readings={"learning_rate": 0.1}), {TRAIN: 1, "study": 1, **FOLLOWS}),
-        (changed(readings={"reset": "terminal"}), {TRAIN: 2, "study": 1, **FOLLOWS}),
+        (changed(readings={"learning_rate": 0.1}), {TRAIN: 1, "study": 1, **OF_NETWORKS}),
+        (changed(readings={"reset": "terminal"}), {TRAIN: 2, "study": 1, **OF_BALANCING}),
         (changed(epsilon=0.02), {TRAIN: CELLS, "study": 1, **FOLLOWS}),
         # Two values swapped: a set of both is the same, a specification is not.
         (changed(epsilon=0.7, discount=0.01), {TRAIN: CELLS, "study": 1, **FOLLOWS}),
-        (changed(tasks={name: {**task, "steps": 7_000} if name == "balancing" else task for name, task in SMALL["tasks"].items()}), {TRAIN: 2, "study": 1, **FOLLOWS}),
+        (changed(tasks={name: {**task, "steps": 7_000} if name == "balancing" else task for name, task in SMALL["tasks"].items()}), {TRAIN: 2, "study": 1, **OF_BALANCING}),
     ],
 )  # fmt: skip
 def test_a_change_of_the_configuration_reruns_what_it_touches(study, content, expected):
@@ -115,7 +122,7 @@ def test_a_change_of_the_configuration_reruns_what_it_touches(study, content, ex
     planned = study.plan()
     if expected is None:  # other cells: figures 5 and 7 lose theirs
         assert planned.pop("figure") < FIGURES_OF_SMALL
-        expected = {TRAIN: 2, "study": 1, **FOLLOWS}
+        expected = {TRAIN: 2, "study": 1, **OF_A_NEW_CELL}
         expected.pop("figure")
     assert planned == expected
 
@@ -127,7 +134,9 @@ def test_an_architecture_is_new_cells(study):
         {"tasks": ["balancing"], "architectures": ["networks-3"], "alphas": [1]},
     ]
     study.write(changed(architectures=architectures, experiments=experiments))
-    assert study.plan() == {TRAIN: 1, "study": 1, **FOLLOWS}
+    planned = {TRAIN: 1, "study": 1, **OF_A_NEW_CELL}
+    planned.pop("verdicts")  # no claim is about it
+    assert study.plan() == planned
 
 
 def test_another_version_of_what_computes_trains_anew(study, tmp_path):
@@ -177,6 +186,22 @@ def test_without_snakemakes_memory_nothing_is_trained_anew(done, tmp_path):
     # What a run was made from stands with the run.
     study.edit(U + "agents/learners/table.py", "+= share", "+= share * 1.0")
     assert study.plan() == {TRAIN: 2, "study": 1, **FOLLOWS}
+
+
+def test_a_recording_that_the_viewer_lost_comes_back(done, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(done.folder, copy)
+    study = object.__new__(Edited)
+    study.folder = copy
+    recordings = copy / "results/report/viewer/recordings"
+    lost, kept = sorted(recordings.iterdir())[:2]
+    content, written = lost.read_bytes(), kept.stat().st_mtime_ns
+    lost.unlink()
+    assert study.plan() == {"viewer": 1}
+    assert study.snakemake().returncode == 0
+    assert lost.read_bytes() == content
+    assert kept.stat().st_mtime_ns == written  # what was right stays
+    assert study.plan() == {}
 
 
 def test_runs_of_a_removed_alpha_are_named_and_deleted(done, tmp_path):

@@ -87,6 +87,8 @@ def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iter
             records.write(path, rule, [INCOMPLETE])
             continue
         known = records.params(path)
+        if known == [repr(INCOMPLETE)]:  # what was missing has come back
+            known = None
         made = _made_from(Path(results), run)
         if made is not None and made[0] == single.replace('"seeds":[0]', f'"seeds":[{seed}]'):
             made = asked, made[1]  # as the whole job is asked for
