@@ -55,8 +55,9 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     for spec in matrix.cells.values():
         train(spec, folder)
     write_tables(folder, matrix)
-    write_verdicts(folder, load_claims(Path("config/claims.yaml")))
-    return Results(folder)
+    results = Results(folder)
+    write_verdicts(results, load_claims(Path("config/claims.yaml")))
+    return results
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -21,10 +21,16 @@ SCALE = {"half_turn": 2.0, "radians": 1.0, "degrees": 180 / np.pi}
 def transcribe(spec: Spec, seed: int, learned: dict[str, NDArray[Any]]) -> dict[str, list[Any]]:
     """A run of ``spec`` that begins with ``learned``, which is changed; columns by name."""
     readings, kind = spec.readings, spec.task.kind
-    modular = spec.architecture.modular
+    modular = spec.architecture.is_modular
     streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
-    q_of = Networks(spec, learned) if spec.architecture.hidden else TableOrControl(spec, learned)
-    epsilon = {"idle": 0.0, "random": 1.0, None: spec.epsilon}[spec.architecture.behaviour]
+    q_of = (
+        Networks(spec, learned)
+        if spec.architecture.learner == "networks"
+        else TableOrControl(spec, learned)
+    )
+    epsilon = {"idle": 0.0, "random": 1.0, None: spec.epsilon}[
+        getattr(spec.architecture, "behaviour", None)
+    ]
     columns: dict[str, list[Any]] = {
         name: [] for name in ("angle", "angular_velocity", "action", "reward", "td_error", "reset")
     }
@@ -104,7 +110,7 @@ def code(spec: Spec, angle: float, velocity: float) -> tuple[int, int]:
     """(module, tile), from the edges of the tiles."""
     pi = np.pi / 2 if spec.readings.angle_unit == "half_turn" else np.pi
     column = int(np.clip(np.searchsorted(np.arange(-20, 21, 2), velocity, "right") - 1, 0, 19))
-    if spec.architecture.modular:
+    if spec.architecture.is_modular:
         if -np.pi / 2 <= angle < np.pi / 2:
             return 0, int(bin_of(angle, np.linspace(-pi, pi, 5))) * 20 + column
         if angle < 0:

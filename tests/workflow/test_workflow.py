@@ -14,7 +14,7 @@ from tests.workflow.small_study import BIN, FIGURES_OF_SMALL, SMALL, Study
 from upswing.figures import FIGURES
 
 EVERYTHING = {
-    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparisons": 1,
+    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparison": 7,
     "figure": FIGURES_OF_SMALL, "viewer": 1, "report": 1,
 }  # fmt: skip
 
@@ -173,7 +173,7 @@ def test_a_threshold_judges_again_and_remakes_the_page(study):
     claims.write_text(
         claims.read_text("utf-8").replace("at_least: 0.98", "at_least: 0.97"), "utf-8"
     )
-    assert study.jobs() == {"verdicts": 1, "comparisons": 1, "viewer": 1, "report": 1}
+    assert study.jobs() == {"verdicts": 1, "comparison": 7, "viewer": 1, "report": 1}
 
 
 def test_a_comment_among_the_claims_judges_nothing(study):

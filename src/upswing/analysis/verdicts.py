@@ -1,7 +1,6 @@
 """Runs and claims → evidence (one row a comparison) → verdicts (one row a claim)."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +12,7 @@ from upswing.analysis.contraction import PROBLEMS, contracts
 from upswing.analysis.statistics import Estimate
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
-from upswing.runs.results import OwnRuns, Results
+from upswing.runs.results import Results
 from upswing.study.claims import (
     Bound,
     Claim,
@@ -23,7 +22,6 @@ from upswing.study.claims import (
     cells_of_claims,
     weakest,
 )
-from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
 from upswing.study.paths import EVIDENCE, VERDICTS
 
@@ -56,26 +54,18 @@ class Evidence(NamedTuple):
     because: str
 
 
-def write_verdicts(
-    results: Path, claims: Mapping[str, Claim], study: Study | None = None
-) -> pd.DataFrame:
-    """Judge every claim by the runs in ``results``; writes and returns the table of verdicts.
-
-    Args:
-        results: the folder; the runs' own files are read, and only those of cells that claims name.
-        claims: the claims.
-        study: the study that is asked for; without, the one that the folder is of.
+def write_verdicts(results: Results, claims: Mapping[str, Claim]) -> pd.DataFrame:
+    """Judge every claim by the runs of ``results``; writes and returns the table of verdicts.
 
     Raises:
-        BadInput: such runs are missing, or a claim asks for a measure that there is not.
+        BadInput: runs that claims are about are missing, or lack a measure that a claim asks for.
     """
-    found = OwnRuns(results, study)
-    found.check_complete({cell for _, cell in cells_of_claims(claims)})
-    verdicts, evidence = judge_all(found, claims)
-    write_table(results / EVIDENCE, evidence)
-    write_table(results / VERDICTS, verdicts)
-    tables = [results / EVIDENCE, results / VERDICTS]
-    seal(results, LEDGER, tables, claims=canonical_claims(claims))
+    results.check_complete({cell for _, cell in cells_of_claims(claims)})
+    verdicts, evidence = judge_all(results, claims)
+    tables = [results.folder / EVIDENCE, results.folder / VERDICTS]
+    for path, table in zip(tables, (evidence, verdicts), strict=True):
+        write_table(path, table)
+    seal(results.folder, LEDGER, tables, claims=canonical_claims(claims))
     return verdicts
 
 

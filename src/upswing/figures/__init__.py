@@ -8,7 +8,6 @@ other is drawn where a study names it under ``figures``.
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
 from upswing.runs.files.atomic import written
@@ -16,9 +15,6 @@ from upswing.runs.files.ledger import seal
 from upswing.study.errors import BadInput, near
 from upswing.study.loading import load, parts, source_of
 from upswing.study.paths import FIGURES as FIGURES_FOLDER
-
-if TYPE_CHECKING:
-    from upswing.study.config import Study
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -77,13 +73,13 @@ def drawable(cells: Iterable[str], changes: bool = False, asked: Iterable[str] =
     ]
 
 
-def draw(name: str, results: Path, study: "Study | None" = None) -> None:
+def draw(name: str, results: Path, study: str = "") -> None:
     """Draw a figure: ``figures/NAME.svg``, ``.png`` and its words in ``.json``.
 
     Args:
         name: the figure's name, or its number in the thesis.
         results: the folder of results.
-        study: the study that is asked for; without, the one that the folder is of.
+        study: the study that is asked for, in JSON; without, the one that the folder is of.
 
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
@@ -94,9 +90,12 @@ def draw(name: str, results: Path, study: "Study | None" = None) -> None:
     from upswing.figures.panels import Drawing
     from upswing.figures.style import save
     from upswing.runs.results import OwnRuns
+    from upswing.runs.study_file import parse_study
 
     declared = FIGURES[name]
-    drawing = load("figures", name).draw(OwnRuns(results, study))
+    drawing = load("figures", name).draw(
+        OwnRuns(results, parse_study(study, "study") if study else None)
+    )
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
     place = results / FIGURES_FOLDER / name

@@ -125,7 +125,13 @@ class Targets:
     @cached_property
     def swept(self) -> list[str]:
         """The table of every job of the sweeps."""
-        return self._below(*(group_of_sweep(*job.split("/")) for job in self.groups))
+        return self._below(
+            *(
+                group_of_sweep(name, group.name)
+                for name, sweep in self.sweeps.items()
+                for group in groups(sweep, self.study)
+            )
+        )
 
     @cached_property
     def readings(self) -> list[str]:

@@ -18,7 +18,7 @@ from pydantic import (
 )
 
 from upswing.study.config import Study
-from upswing.study.errors import BadInput, explained, near
+from upswing.study.errors import BadInput, explained, near, shown
 from upswing.study.known_cells import check_cells
 from upswing.study.measured import MEASURES
 from upswing.study.names import CellName, ClaimName, Text
@@ -152,10 +152,12 @@ class Part(Strict):
         for name, option in self.only_if.items():
             if name not in Readings.model_fields:
                 hint = near(name, Readings.model_fields)
-                raise ValueError(f"only_if: {name}: no such reading; {hint}")
+                raise ValueError(f"only_if: {shown(name)}: no such reading; {hint}")
             if option not in options_of(name):
                 options = ", ".join(map(str, options_of(name)))
-                raise ValueError(f"only_if: {name}: {option}: no such option; there are {options}")
+                raise ValueError(
+                    f"only_if: {name}: {shown(option)}: no such option; there are {options}"
+                )
         for name, bound in (*self.where.items(), *self.among.items()):
             if name.endswith("_share") and not all(0 <= x <= 1 for _, x in bound if x is not None):
                 raise ValueError(f"{name} lies between 0 and 1, and so does what bounds it")

@@ -12,6 +12,7 @@ from tests.made_up import FROM, ONE, OTHER
 from upswing.analysis import statistics
 from upswing.analysis.verdicts import write_verdicts
 from upswing.runs.files.tables import write_table
+from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, write_study
 from upswing.study.claims import load_claims
 from upswing.study.config import load
@@ -103,9 +104,9 @@ def world(folder, *layers):
             (folder / row["recording"]).parent.mkdir(parents=True, exist_ok=True)
             (folder / row["recording"]).touch()
     write_table(folder / RUNS, pd.DataFrame(rows))
-    return write_verdicts(folder, load_claims(Path("config/claims.yaml"))).set_index("claim")[
-        "verdict"
-    ]
+    return write_verdicts(Results(folder), load_claims(Path("config/claims.yaml"))).set_index(
+        "claim"
+    )["verdict"]
 
 
 def test_in_a_world_where_the_thesis_is_right_every_claim_is_reproduced(tmp_path):

@@ -19,8 +19,7 @@ def two_folders(tmp_path):
     claims = {"C1": Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])}
 
     def make(name, x):
-        made_up(tmp_path / name, swing_ups=[x, ZERO, ZERO])
-        write_verdicts(tmp_path / name, claims)
+        write_verdicts(made_up(tmp_path / name, swing_ups=[x, ZERO, ZERO]), claims)
         return tmp_path / name
 
     return make

@@ -98,12 +98,12 @@ def refused(arguments, path, capsys):
 @pytest.mark.parametrize(
     ("table", "subcommands"),
     [
-        (RUNS, [["verdicts"], ["report"], ["browse", "--print", "--results"], ["comparisons"], ["figure", "overview"], ["compare"]]),
+        (RUNS, [["report"], ["browse", "--print", "--results"], ["compare"]]),
         (CELLS, [["report"]]),
-        (VERDICTS, [["report"], ["comparisons"], ["browse", "claim=C1", "--print", "--results"], ["compare"], ["readme"]]),
+        (VERDICTS, [["report"], ["browse", "claim=C1", "--print", "--results"], ["compare"], ["readme"]]),
         (EVIDENCE, [["report"], ["compare"]]),
         (TRAJECTORY, [["comparisons"]]),
-        (WINDOWS, [["tables"], ["comparisons"]]),
+        (WINDOWS, [["tables"], ["comparisons"], ["figure", "overview"], ["verdicts"]]),
     ],
 )  # fmt: skip
 def test_a_foreign_table_of_a_study_is_refused(folder, table, subcommands, kind, capsys, results):

@@ -159,7 +159,7 @@ def test_the_row_of_a_claim_is_that_of_its_decisive_part(tmp_path):
         for cell in (ONE, OTHER, THIRD)
     ]
     claims = {"C0": Claim(statement="…", section="…", figure=5, cell=ONE, parts=parts)}
-    (row,) = write_verdicts(results.folder, claims).to_dict("records")
+    (row,) = write_verdicts(results, claims).to_dict("records")
     assert row["verdict"] == "not reproduced"
     assert row["cells"] == OTHER
     assert row["estimate"] == 0.2
@@ -179,12 +179,17 @@ def test_a_cell_that_the_study_has_not_is_named(tmp_path):
     assert "balancing/table/alpha-0.7" in row.says
 
 
+def about_the_other():
+    asked = part("share", [OTHER], where={"swing_ups": {"at_least": 1}}, **FROM)
+    return {"C0": Claim(statement="…", section="…", cell=OTHER, parts=[asked])}
+
+
 def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
     results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
     runs = results.runs.drop(columns="cell")
     write_table(tmp_path / RUNS, runs[~runs["run"].str.startswith(OTHER)])
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} runs are missing"):
-        write_verdicts(tmp_path, {})
+        write_verdicts(Results(tmp_path), about_the_other())
 
 
 def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
@@ -192,7 +197,7 @@ def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
     for path in (tmp_path / "runs" / OTHER).iterdir():
         path.unlink()
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} recordings are missing"):
-        write_verdicts(results.folder, {})
+        write_verdicts(results, about_the_other())
 
 
 def test_runs_without_a_value_are_not_paired_in_silence(tmp_path):

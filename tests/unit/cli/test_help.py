@@ -74,7 +74,7 @@ def test_figures_are_completed():
 
 
 def test_subcommands_and_options_are_completed():
-    assert completed("comp") == ["compare", "comparisons"]
+    assert completed("comp") == ["compare", "comparison", "comparisons"]
     assert completed("verdicts", "--d") == ["--details"]
 
 

@@ -17,7 +17,7 @@ OPTION_ONLY = {"train", "study", "shortest", "browse"}
 
 READERS = [
     ["verdicts"], ["figure", "5"], ["doctor"], ["clean-orphans"], ["readme"], ["screenshots"],
-    ["tables"], ["comparisons"], ["viewer"], ["report"], ["changes"], ["readings"],
+    ["tables"], ["comparison", "task-balancing"], ["comparisons"], ["viewer"], ["report"], ["changes"], ["readings"],
     ["sweep", "networks", "group"],
 ]  # fmt: skip
 """What takes it in both ways, with the arguments that come first; ``bound`` needs nothing in it."""

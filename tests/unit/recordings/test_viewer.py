@@ -11,9 +11,11 @@ from upswing.recordings.content_policy import source_of
 from upswing.recordings.program import RERUN
 from upswing.recordings.singly import chosen_runs, script_of_layout, script_of_run
 from upswing.recordings.viewer import write_viewer
+from upswing.study.claims import load_claims
 from upswing.study.ids import recording_id
 from upswing.study.paths import VIEWER
 
+CLAIMS = load_claims(Path("config/claims.yaml"))
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
 
 
@@ -40,11 +42,11 @@ def test_a_run_without_a_recording_is_named(results):
 def test_chosen_recordings_stand_beside_the_report(results, names):
     folder = results.folder / VIEWER
     assert {"task-balancing", "task-full-control", "claim-C1", "claim-C13"} <= set(names)
-    assert {recording_id(run) for run in chosen_runs(results)} <= set(names)
+    assert {recording_id(run) for run in chosen_runs(results, CLAIMS)} <= set(names)
     assert sorted(path.stem for path in (folder / "recordings").iterdir()) == sorted(names)
     assert not list(folder.parent.glob("*.part"))
     written = {path: path.read_bytes() for path in folder.rglob("*.js")}
-    write_viewer(results, Path("report"))
+    write_viewer(results, CLAIMS, Path("report"))
     # Rerun gives a layout other ids each time; all else is the same.
     assert all(
         path.read_bytes() == content
@@ -70,7 +72,7 @@ def test_the_viewers_page_allows_what_it_brings_and_nothing_else(results, names)
 def test_a_recording_opens_from_plain_files_and_nothing_leaves_the_page(
     browser, results, names, tmp_path, kind
 ):
-    name = "claim-C13" if kind == "claim" else recording_id(chosen_runs(results)[0])
+    name = "claim-C13" if kind == "claim" else recording_id(chosen_runs(results, CLAIMS)[0])
     folder = (results.folder / VIEWER).resolve()
     page, requests = opened(browser, f"{(folder / 'index.html').as_uri()}#{name}")
     page.wait_for_selector("body[data-state=open]", timeout=LONG)

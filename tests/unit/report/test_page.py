@@ -17,6 +17,7 @@ from upswing.report import words
 from upswing.report.cost import costs
 from upswing.report.page import write_report
 from upswing.report.scale import strip
+from upswing.study.claims import load_claims
 from upswing.study.paths import CELLS, PAGE, RUNS, VERDICTS
 
 
@@ -25,8 +26,9 @@ def address(results):
     """The page of a small study, with everything beside it that it links."""
     for name in drawable(results.cells):
         draw(name, results.folder)
-    write_comparisons(results)
-    write_viewer(results, Path("report"))
+    claims = load_claims(Path("config/claims.yaml"))
+    write_comparisons(results, claims)
+    write_viewer(results, claims, Path("report"))
     write_report(results.folder, Path("report"))
     return (results.folder / PAGE).resolve().as_uri()
 

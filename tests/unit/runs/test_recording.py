@@ -149,8 +149,8 @@ def _columns(path):
 
 
 def test_comparisons_hold_every_run_of_a_task_and_three_of_a_claim(results):
-    paths = {path.stem: path for path in write_comparisons(results)}
     claims = load_claims(Path("config/claims.yaml"))
+    paths = {path.stem: path for path in write_comparisons(results, claims)}
     assert sorted(paths) == sorted(comparison_names(claims, results.cells))
     assert {"task-balancing", "task-full-control", "claim-C1", "claim-C13"} <= set(paths)
     task = _columns(paths["task-balancing"])
@@ -330,7 +330,7 @@ def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
 def test_screenshots_are_taken(results, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    write_comparisons(results)
+    write_comparisons(results, load_claims(Path("config/claims.yaml")))
     take_screenshots(
         results, tmp_path, "full-control/modular-networks-5/alpha-1/seed-0", "full-control"
     )

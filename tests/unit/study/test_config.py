@@ -137,8 +137,8 @@ def test_more_seeds_only_add_blocks():
     def blocks(seeds):
         return Matrix(validated({"x": {**STUDY, "seeds": seeds}})).blocks
 
-    assert blocks(100)[:2] == blocks(30)
-    assert [block.seeds for block in blocks([1000, 1019])] == [(1000,), (1019,)]
+    assert blocks(100)[:2] == blocks(60)
+    assert [block.seeds for block in blocks([1000, 1020])] == [(1000,), (1020,)]
 
 
 def test_command_line_values_are_laid_over_the_file():

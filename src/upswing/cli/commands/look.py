@@ -31,11 +31,13 @@ def verdicts(
     """Judge every claim by the runs and print the verdicts; writes tables/verdicts.parquet."""
     from upswing.analysis.verdicts import write_verdicts
     from upswing.cli.shown.verdicts import print_verdicts
+    from upswing.runs.results import OwnRuns
     from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
     of = asked_study(study, folder)
-    print_verdicts(write_verdicts(folder, load_claims(claims, of), of), details)
+    found = OwnRuns(folder, of)
+    print_verdicts(write_verdicts(found, load_claims(claims, of)), details)
 
 
 def _figures() -> list[str]:
@@ -69,8 +71,7 @@ def figure(
     """Draw a figure from the results, as SVG and PNG."""
     from upswing.figures import draw
 
-    folder = results_folder(results, positional)
-    draw(name, folder, asked_study(study, folder))
+    draw(name, results_folder(results, positional), study)
 
 
 @panel.subcommand(
