@@ -60,6 +60,7 @@ def asked(config: Path, readings: Path, claims: Path) -> dict[str, object]:
     reading, writing = os.pipe()
     if os.fork() == 0:
         from upswing.figures import drawable
+        from upswing.recordings.comparison_names import comparison_names
         from upswing.runs.study_file import canonical
         from upswing.study.claims import load_claims
         from upswing.study.config import load
@@ -68,7 +69,7 @@ def asked(config: Path, readings: Path, claims: Path) -> dict[str, object]:
 
         study = load(config)
         matrix = Matrix(study)
-        load_claims(claims)
+        judged = load_claims(claims)
         sweeps = load_sweeps(readings, study)
         changes = any(experiment.title for experiment in study.experiments)
         with os.fdopen(writing, "w") as pipe:
@@ -80,6 +81,7 @@ def asked(config: Path, readings: Path, claims: Path) -> dict[str, object]:
                     "changes": changes,
                     "cells": {cell: spec.canonical() for cell, spec in matrix.cells.items()},
                     "figures": drawable(matrix.cells, changes),
+                    "comparisons": comparison_names(judged, matrix.cells),
                     "sweeps": {
                         name: [g.name for g in groups(s, study)] for name, s in sweeps.items()
                     },
@@ -123,7 +125,8 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
         yield "shortest", subcommand("shortest", str(told["study"]), "--results", results)
     for figure in told["figures"]:  # type: ignore[attr-defined]
         yield f"figure {figure}", subcommand("figure", figure, results)
-    yield "comparisons", subcommand("comparisons", results)
+    for comparison in told["comparisons"]:  # type: ignore[attr-defined]
+        yield "comparison", subcommand("comparison", comparison, results, "--claims", str(claims))
     yield "viewer", subcommand("viewer", results, "--templates", str(templates))
     for name, groups in told["sweeps"].items():  # type: ignore[attr-defined]
         for group in groups:

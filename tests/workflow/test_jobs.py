@@ -24,7 +24,7 @@ CODE_OF_RULE = {
     "verdicts": jobs.VERDICTS,
     "changes": jobs.CHANGES,
     "readings": jobs.READINGS,
-    "comparisons": jobs.COMPARISONS,
+    "comparison": jobs.COMPARISON,
     "viewer": jobs.VIEWER,
     "report": jobs.page(FIGURES),
     "bound": jobs.bound(),
@@ -101,7 +101,7 @@ def missing(modules, code):
 def test_every_kind_of_job_was_run(ran):
     study, sweeps, imported = ran
     rules = {job.partition(" ")[0] for job in imported}
-    expected = {"study", "train", "tables", "verdicts", "figure", "comparisons", "viewer", "report"}
+    expected = {"study", "train", "tables", "verdicts", "figure", "comparison", "viewer", "report"}
     expected |= {"bound", "changes", "shortest"} if study.search else {"sweep", "readings"}
     assert rules == expected
     assert {f"train {cell}" for cell in Matrix(study).cells} <= imported.keys()

@@ -95,7 +95,9 @@ def test_the_rules_make_what_a_study_is_said_to_come_to(watched):
     made = set(told["outputs"])
     optional = {path for path in made if "/tables/" in path or "/figures/readings" in path}
     assert made - optional <= {*files.quick, *files.slow}
-    with_wildcards = {*files.pictures("svg", "png", "json"), *files.swept}
+    with_wildcards = {
+        *files.pictures("svg", "png", "json"), *files.swept, *files.comparisons,
+    }  # fmt: skip
     assert {*files.quick, *files.slow} - with_wildcards <= made
 
 

@@ -177,8 +177,8 @@ def test_what_nobody_knows_is_said(study):
     study.write({**TINY, "epsilon": 0.02})
     done = study.snakemake("--dry-run")
     output = done.stdout + done.stderr
-    assert f"{FORGOTTEN} 8 files in results were made" in output
-    assert "results/runs/balancing/table/alpha-1/seed-0.trajectory.parquet first" in output
+    assert f"{FORGOTTEN} 2 files in results were made" in output
+    assert "results/runs/balancing/table/alpha-1/seed-0.windows.parquet first" in output
 
 
 def test_whole_records_are_left_as_they_are(study):

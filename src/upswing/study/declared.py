@@ -19,7 +19,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from upswing.study.errors import BadInput, near
+from upswing.study.errors import near
 from upswing.study.loading import module_of, parts, source_of
 from upswing.study.values import Strict
 
@@ -54,7 +54,7 @@ def declared(kind: str, name: str, base: type[S]) -> type[S]:
     """The options of a part: its class ``Options``, or ``base`` where it has none.
 
     Raises:
-        BadInput: the class cannot be run, or is no subclass of ``base``.
+        ValueError: the class cannot be run, or is no subclass of ``base``.
     """
     path = source_of(kind, name)
     try:
@@ -64,12 +64,14 @@ def declared(kind: str, name: str, base: type[S]) -> type[S]:
         # This is our own source, which `import` would run as well.
         exec(compile(ast.Module(body, []), str(path), "exec"), namespace)  # noqa: S102
     except Exception as error:  # noqa: BLE001 - whatever a class body may raise
-        raise BadInput(
-            [f"{path}: Options: {error}; it may use only what is imported from {', '.join(LIGHT)}"]
+        said = str(error).splitlines()[0]
+        allowed = ", ".join(LIGHT)
+        raise ValueError(
+            f"{path}: Options: {said}; it may use only what comes from {allowed}"
         ) from None
     options = namespace.get("Options", base)
     if not (isinstance(options, type) and issubclass(options, base)):
-        raise BadInput([f"{path}: Options: must be a class Options({base.__name__})"])
+        raise ValueError(f"{path}: Options: must be a class Options({base.__name__})")
     return options
 
 
