@@ -37,6 +37,12 @@ TARGETS = ("all", "with_readings")
 FIGURES_OF_SMALL = 6  # 5, 7 and 8 have all their cells, and there are three of ours
 
 
+def surroundings() -> dict[str, str]:
+    """The environment of a study: our programs first, and sources are compiled once, not by every job."""
+    kept = {key: text for key, text in os.environ.items() if key != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, "PATH": f"{BIN}:{os.environ['PATH']}"}
+
+
 class Study:
     """A checkout's workflow in a temporary folder."""
 
@@ -59,7 +65,7 @@ class Study:
                 "--configfile", "config/small.yaml", *arguments,
             ],
             cwd=self.folder,
-            env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"},
+            env=surroundings(),
             capture_output=True,
             text=True,
             check=False,
@@ -85,11 +91,7 @@ class Edited(Study):
         self.write({**SMALL, "seeds": 2})
 
     def snakemake(self, *arguments, versions=""):
-        environment = {
-            **os.environ,
-            "PATH": f"{BIN}:{os.environ['PATH']}",
-            "PYTHONPATH": f"{versions}{self.folder / 'src'}",
-        }
+        environment = {**surroundings(), "PYTHONPATH": f"{versions}{self.folder / 'src'}"}
         return subprocess.run(
             [
                 str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",

@@ -71,7 +71,7 @@ U = "src/upswing/"
         (U + "agents/learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {TRAIN: 1, **OF_NETWORKS}),
         (U + "agents/learners/table.py", "+= share", "+= share * 1.0", {TRAIN: 2, **OF_TABLES}),
         # A new option of one learner.
-        (U + "agents/learners/networks.py", "    def check(", "    slope: float = 1.0\n\n    def check(", {TRAIN: 1, **OF_NETWORKS}),
+        (U + "agents/learners/networks.py", "    def check(", "    slope: float = 1.0\n\n    def check(", {TRAIN: 1, "study": 1, **OF_NETWORKS}),
         (U + "physics/pendulum.py", "gravity: float = 9.81", "gravity: float = 9.80", {TRAIN: CELLS, **FOLLOWS}),
         (U + "agents/features/grid.py", "from math import floor, pi", "from math import floor, pi\nX = 1", {TRAIN: CELLS, **FOLLOWS}),
         (U + "figures/fig05.py", "5_000", "4_000", {"figure": 1, "viewer": 1, "report": 1}),

@@ -136,18 +136,6 @@ def test_logs_and_benchmarks_are_written(study):
 # The tests from here on change the study, each back to what it was.
 
 
-def test_a_new_alpha_runs_its_cells_and_what_follows(study):
-    larger = {**SMALL, "experiments": [*SMALL["experiments"]]}
-    larger["experiments"][0] = {**SMALL["experiments"][0], "alphas": [1, 0.5]}
-    study.write(larger)
-    ran = study.jobs()
-    # The figures that show whatever there is, and the recording of its task.
-    assert ran == {**EVERYTHING, "train_seeds_0_to_1": 2, "figure": 3, "comparison": 1}
-    study.write(SMALL)
-    assert "train_seeds_0_to_1" not in study.jobs()
-    assert study.jobs() == {}
-
-
 def test_snakemakes_own_report_shows_the_figures(study):
     done = study.snakemake("--report", "own.html")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -181,14 +169,6 @@ def test_a_comment_among_the_claims_judges_nothing(study):
     claims = study.folder / "config/claims.yaml"
     claims.write_text("# a comment\n" + claims.read_text("utf-8"), "utf-8")
     assert study.jobs() == {}
-
-
-def test_a_reading_reruns_what_it_touches(study):
-    study.write({**SMALL, "readings": {"learning_rate": 0.1}})
-    ran = study.jobs()
-    assert ran["train_seeds_0_to_1"] == 1  # the one cell of networks
-    study.write(SMALL)
-    assert study.jobs()["train_seeds_0_to_1"] == 1
 
 
 def test_a_deleted_run_is_made_again(study):
