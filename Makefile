@@ -84,6 +84,10 @@ beyond: install ## Run what goes beyond the thesis (half an hour on 2 cores), in
 bench: install ## Measure a step against C, numpy and torch, and what the whole study took
 	@$(BIN)/python -m tests.benchmarks.run results
 
+.PHONY: bench-edits
+bench-edits: install ## Measure what an edit costs until the page is right again (ten minutes)
+	@$(BIN)/python -m tests.benchmarks.edits results
+
 .PHONY: bench-growth
 bench-growth: install ## Measure how time and size grow with seeds and steps (a quarter of an hour)
 	@$(BIN)/python -m tests.benchmarks.growth results
@@ -105,7 +109,7 @@ test: install ## Run the tests
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m "not heavy"
 
 .PHONY: test-heavy
-test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed
+test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed, sweeps, studies beyond the thesis
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m heavy
 
 .PHONY: test-all

@@ -23,6 +23,8 @@ from upswing.study.matrix import Matrix, canonical_search, cells_of
 from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
 from upswing.study.readings import Readings
 
+pytestmark = pytest.mark.heavy  # it runs studies with sweeps, or beyond the thesis
+
 SMALL = {
     "results": "results/beyond",
     "seeds": [5000, 5001, 5002],

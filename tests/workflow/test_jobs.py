@@ -62,7 +62,7 @@ def small_readings(folder):
     return path
 
 
-@pytest.fixture(scope="module", params=["config", "beyond"])
+@pytest.fixture(scope="module", params=["config", pytest.param("beyond", marks=pytest.mark.heavy)])
 def ran(request, tmp_path_factory):
     """A small study of a configuration, and what each of its jobs imported."""
     folder = tmp_path_factory.mktemp(request.param)

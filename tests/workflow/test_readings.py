@@ -11,6 +11,8 @@ import yaml
 from tests.paths import ROOT
 from tests.workflow.small_study import BIN, Study
 
+pytestmark = pytest.mark.heavy  # it runs studies with sweeps, or beyond the thesis
+
 STUDY = {
     "results": "results",
     "seeds": 2,

@@ -7,6 +7,8 @@ import yaml
 
 from tests.workflow.small_study import Edited
 
+pytestmark = pytest.mark.heavy  # it runs studies with sweeps, or beyond the thesis
+
 CONFIG = {
     "results": "results",
     "seeds": [5000],

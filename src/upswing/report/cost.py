@@ -14,6 +14,7 @@ OF_A_BENCHMARK = {
 OF_GROWTH = {
     "grows": "text", "to": "whole", "seconds": "number", "cpu_seconds": "number", "megabytes": "number",
 }  # fmt: skip
+OF_AN_EDIT = {"edit": "text", "seconds": "number", "goal": "number", "met": "truth"}
 
 NOT_STUDY = ("sweep", "readings")
 """Rules of ``make readings``, which is not the study itself."""

@@ -22,7 +22,7 @@ from upswing.physics.pendulum import Pendulum
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.chapter import chapter
-from upswing.report.cost import OF_A_BENCHMARK, OF_GROWTH, costs, totals
+from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
 from upswing.report.scale import strip
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
@@ -39,6 +39,7 @@ from upswing.study.matrix import Matrix
 from upswing.study.paths import (
     BENCHMARK,
     DECISIVE,
+    EDITS,
     EVIDENCE,
     EVIDENCE_CSV,
     GROWTH,
@@ -103,6 +104,7 @@ def write_report(results: Path, templates: Path) -> None:
         "costs": costs(results),
         "totals": totals(results, sum(row["seconds"] for row in runs)),
         "benchmark": _optional(results / BENCHMARK, OF_A_BENCHMARK, "`make bench` makes it"),
+        "edits": _optional(results / EDITS, OF_AN_EDIT, "`make bench-edits` makes it"),
         "growth": _optional(results / GROWTH, OF_GROWTH, "`make bench-growth` makes it"),
         "provenance": provenance(),
         "style": _own(templates / "style.css"),

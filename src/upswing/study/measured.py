@@ -1,9 +1,13 @@
 """What is measured of a run, by name: light, so that claims are checked without what computes it."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Real = NDArray[np.float64]
+    Count = NDArray[np.int64]
 
 
 class Measures(NamedTuple):
@@ -37,20 +41,16 @@ MEASURES = (*Measures._fields, *Greedy._fields, "seconds", "steps_per_second")
 """The columns of the table of runs that a claim may ask for."""
 
 
-Real = NDArray[np.float64]
-Count = NDArray[np.int64]
-
-
 class Windows(NamedTuple):
     """A run in windows of equal length (the last may be shorter); every array has shape (windows,)."""
 
-    first_step: Count
-    steps: Count
-    falls: Count
-    upright_share: Real
-    above_horizontal_share: Real
-    mean_reward: Real  # [rad²]
-    lowest_angle: Real  # [rad]
-    highest_angle: Real  # [rad]
-    highest_speed: Real  # |φ̇| [rad/s]
-    mean_td_error: Real  # |δ| [rad²], of the steps that learned; NaN if none did
+    first_step: "Count"
+    steps: "Count"
+    falls: "Count"
+    upright_share: "Real"
+    above_horizontal_share: "Real"
+    mean_reward: "Real"  # [rad²]
+    lowest_angle: "Real"  # [rad]
+    highest_angle: "Real"  # [rad]
+    highest_speed: "Real"  # |φ̇| [rad/s]
+    mean_td_error: "Real"  # |δ| [rad²], of the steps that learned; NaN if none did

@@ -25,6 +25,7 @@ CHOSEN = "tables/chosen.parquet"
 
 BENCHMARK = "tables/benchmark.parquet"
 GROWTH = "tables/growth.parquet"
+EDITS = "tables/edits.parquet"
 
 FIGURES = "figures"
 RECORDINGS = "recordings"

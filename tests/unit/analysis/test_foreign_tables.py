@@ -20,7 +20,7 @@ from upswing.analysis.robustness.tables import (
 )
 from upswing.cli.main import main
 from upswing.optimal.tables import OF_THE_BOUND, OF_THE_MAPS
-from upswing.report.cost import OF_A_BENCHMARK, OF_GROWTH
+from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH
 from upswing.runs.files.tables import JUDGED
 from upswing.runs.files.typed_table import read_table
 from upswing.runs.study_file import canonical, write_study
@@ -34,6 +34,7 @@ from upswing.study.paths import (
     CHANGES,
     CHOSEN,
     DECISIVE,
+    EDITS,
     EVIDENCE,
     GROWTH,
     MAPS,
@@ -126,7 +127,7 @@ def test_a_foreign_table_of_a_study_is_refused(folder, table, subcommands, kind,
 OPTIONAL = {
     BOUND: OF_THE_BOUND, MAPS: OF_THE_MAPS, CHANGES: OF_A_CHANGE, CHOSEN: OF_THE_CHOSEN,
     SELECTION: OF_A_SELECTION, READINGS: OF_A_READING, DECISIVE: OF_A_CAUSE, ROBUST: OF_A_SUMMARY,
-    BENCHMARK: OF_A_BENCHMARK, GROWTH: OF_GROWTH,
+    BENCHMARK: OF_A_BENCHMARK, GROWTH: OF_GROWTH, EDITS: OF_AN_EDIT,
 }  # fmt: skip
 
 
