@@ -261,7 +261,7 @@ def test_the_chapters_own_configuration_searches_and_reports_on_different_seeds(
 
 
 def test_every_part_there_is_is_used():
-    """A learner, coding or method that no study in ``config/`` uses is tried by nobody."""
+    """A learner, encoder or algorithm that no study in ``config/`` uses is tried by nobody."""
     from upswing.study.loading import parts
 
     files = [
@@ -271,7 +271,7 @@ def test_every_part_there_is_is_used():
     ]
     assert len(files) >= 3
     used = [architecture for path in files for architecture in load(path).architectures.values()]
-    for kind, key in (("learners", "learner"), ("codings", "coding"), ("methods", "method")):
+    for kind, key in (("learners", "learner"), ("features", "coding"), ("algorithms", "method")):
         unused = set(parts(kind)) - {getattr(one, key) for one in used}
         assert not unused, (
             f"name {unused} in config/beyond.yaml, or in a study of your own in config/"

@@ -7,8 +7,8 @@ MEDIAN_BY_UPRIGHT = (
     "The run shown is the median one by its share of upright steps, |φ| ≤ 20°, in the last fifth "
     "(ties: mean reward, seed)"
 )
-CROWD = "thin lines are single runs, the thick line their median"
-WHEREABOUTS = (
+ENSEMBLE = "thin lines are single runs, the thick line their median"
+ANGLE_HISTOGRAM = (
     "where the pendulum was: the darker, the more of its steps at that angle at that time; 0° is "
     "upright, ±180° hanging"
 )

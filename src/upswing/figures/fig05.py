@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -20,14 +20,14 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.style import grid_of_panels
 
-    run, crowd = results.median_run(CELL), results.crowd(CELL)
+    run, ensemble = results.median_run(CELL), results.ensemble(CELL)
     figure, axes = grid_of_panels(2)
     for row, steps in enumerate((5_000, None)):
         panels.angle(axes[2 * row], run, CELL, steps)
-        panels.falls(axes[2 * row + 1], [(CELL, "table", crowd)], steps)
+        panels.falls(axes[2 * row + 1], [(CELL, "table", ensemble)], steps)
     caption = (
         "Q-learning with a table of 4 × 20 tiles in the balancing task, α = 1: the first 5,000 "
         f"steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls of "
-        f"all {len(crowd.seeds)} runs; {CROWD}."
+        f"all {len(ensemble.seeds)} runs; {ENSEMBLE}."
     )
     return panels.Drawing(figure, caption, [run.id])

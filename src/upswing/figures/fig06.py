@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def draw(results: "Results") -> "Drawing":
     count = len(results.cell(next(iter(CELLS))))
     caption = (
         "Q-learning with a table in the balancing task for four step sizes α. Left: the angle. "
-        f"{MEDIAN_BY_FALLS}. Right: falls of all {count} runs; {CROWD}. The scales on the right "
+        f"{MEDIAN_BY_FALLS}. Right: falls of all {count} runs; {ENSEMBLE}. The scales on the right "
         "differ."
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

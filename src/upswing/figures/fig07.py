@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -21,15 +21,17 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.style import grid_of_panels
 
-    run, crowd, table = results.median_run(CELL), results.crowd(CELL), results.crowd(TABLE)
+    run, ensemble, table = results.median_run(CELL), results.ensemble(CELL), results.ensemble(TABLE)
     figure, axes = grid_of_panels(2)
     for row, steps in enumerate((5_000, None)):
         panels.angle(axes[2 * row], run, CELL, steps)
-        panels.falls(axes[2 * row + 1], [(CELL, "networks", crowd), (TABLE, "table", table)], steps)
+        panels.falls(
+            axes[2 * row + 1], [(CELL, "networks", ensemble), (TABLE, "table", table)], steps
+        )
     caption = (
         "Q-learning with three networks of 80-5-1 neurons in the balancing task, α = 1: the first "
         f"5,000 steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls "
-        f"of all {len(crowd.seeds)} runs; {CROWD}, the dashed line the median of the table with "
+        f"of all {len(ensemble.seeds)} runs; {ENSEMBLE}, the dashed line the median of the table with "
         "α = 1 (figure 5)."
     )
     return panels.Drawing(figure, caption, [run.id])

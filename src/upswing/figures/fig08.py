@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
+from upswing.figures.captions import ANGLE_HISTOGRAM, ENSEMBLE, ORDERED_BY_UPRIGHT
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ def draw(results: "Results") -> "Drawing":
     figure, runs = panels.one_and_all(results, [(CELL, "table")], list(CONTROLS.items()))
     caption = (
         "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
-        f"{WHEREABOUTS}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
-        f"{len(results.cell(CELL))} runs; {CROWD}, dashed lines the medians of no control and of "
+        f"{ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no control and of "
         "random actions."
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

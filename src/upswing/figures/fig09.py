@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, MEDIAN_BY_UPRIGHT, WHEREABOUTS
+from upswing.figures.captions import ANGLE_HISTOGRAM, ENSEMBLE, MEDIAN_BY_UPRIGHT
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def draw(results: "Results") -> "Drawing":
     count = len(results.cell(next(iter(CELLS))))
     caption = (
         "Q-learning with three networks at full control, α = 1, in the three sizes of the thesis, "
-        f"which shows the first. Left: {WHEREABOUTS}. {MEDIAN_BY_UPRIGHT}. Right: the share of upright "
-        f"steps of all {count} runs; {CROWD}."
+        f"which shows the first. Left: {ANGLE_HISTOGRAM}. {MEDIAN_BY_UPRIGHT}. Right: the share of "
+        f"upright steps of all {count} runs; {ENSEMBLE}."
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import CROWD, ORDERED_BY_UPRIGHT, WHEREABOUTS
+from upswing.figures.captions import ANGLE_HISTOGRAM, ENSEMBLE, ORDERED_BY_UPRIGHT
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -27,8 +27,8 @@ def draw(results: "Results") -> "Drawing":
     figure, runs = panels.one_and_all(results, [(CELL, "modular")], [(SINGLE, "single")])
     caption = (
         "Modular Q-learning with two times three networks of 80-5-1 neurons at full control, "
-        f"α = 1. Left: {WHEREABOUTS}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
-        f"{len(results.cell(CELL))} runs; {CROWD}, the dashed line the median of networks of the "
+        f"α = 1. Left: {ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of "
+        f"all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of networks of the "
         "same size without modules (figure 9)."
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

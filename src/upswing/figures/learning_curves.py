@@ -44,17 +44,17 @@ def draw(results: "Results") -> "Drawing":
         for (name, shown), panel in zip(groups.items(), axes[2 * number :], strict=False):
             ends = []
             for cell in shown:
-                crowd = results.crowd(cell)
-                group = max(1, len(crowd.last_step) // WINDOWS)
-                begins = np.arange(0, len(crowd.last_step), group)
+                ensemble = results.ensemble(cell)
+                group = max(1, len(ensemble.last_step) // WINDOWS)
+                begins = np.arange(0, len(ensemble.last_step), group)
                 if judged_by == "falls":
-                    steps = np.diff(crowd.last_step, prepend=0)
+                    steps = np.diff(ensemble.last_step, prepend=0)
                     per = np.add.reduceat(steps, begins) / 1_000
-                    values = np.add.reduceat(crowd.falls, begins, axis=1) / per
+                    values = np.add.reduceat(ensemble.falls, begins, axis=1) / per
                 else:
-                    sizes = np.diff(begins, append=len(crowd.last_step))
-                    values = 100 * np.add.reduceat(crowd.upright_share, begins, axis=1) / sizes
-                last = crowd.last_step[np.append(begins[1:], len(crowd.last_step)) - 1]
+                    sizes = np.diff(begins, append=len(ensemble.last_step))
+                    values = 100 * np.add.reduceat(ensemble.upright_share, begins, axis=1) / sizes
+                last = ensemble.last_step[np.append(begins[1:], len(ensemble.last_step)) - 1]
                 low, middle, high = np.quantile(values, (0.25, 0.5, 0.75), axis=0)
                 shade = colour(cell)
                 panel.plot(last, middle, color=shade, linewidth=1.4)

@@ -12,16 +12,16 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from upswing.analysis.colours import colour
 from upswing.figures.style import grid_of_panels, stack_and_panel
 from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
-from upswing.runs.results import Crowd, OneRun, Real, Results
+from upswing.runs.results import Ensemble, OneRun, Real, Results
 
 POINTS = 200
-"""Approximate number of points of a crowd's line."""
+"""Approximate number of points of an ensemble's line."""
 
 LINE = 0.14
 """Height of a label [inch]."""
 
 ANGLES, TIMES = 37, 125
-"""The pendulum's whereabouts are counted in so many parts of a turn (0° in the middle of one) and
+"""The pendulum's angle_histogram are counted in so many parts of a turn (0° in the middle of one) and
 of a run."""
 
 
@@ -57,7 +57,7 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
     steps_axis(axes)
 
 
-def whereabouts(axes: Axes, run: OneRun, cell: str) -> None:
+def angle_histogram(axes: Axes, run: OneRun, cell: str) -> None:
     """Where the pendulum was, in time: the share of steps at each angle, darker for more.
 
     A line would fill the panel. The steps are those kept evenly over the run; a column's darkest shade
@@ -83,29 +83,35 @@ def whereabouts(axes: Axes, run: OneRun, cell: str) -> None:
     steps_axis(axes)
 
 
-def falls(axes: Axes, crowds: Sequence[tuple[str, str, Crowd]], steps: int | None = None) -> None:
+def falls(
+    axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]], steps: int | None = None
+) -> None:
     """Falls so far over the steps: every run of the first cell, and the median of each cell.
 
     Args:
         axes: where to draw.
-        crowds: (cell, label, its runs) of each cell; all runs are drawn of the first.
+        ensembles: (cell, label, its runs) of each cell; all runs are drawn of the first.
         steps: number of first steps to draw; all without it.
     """
-    _crowd(axes, [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in crowds], steps)
-    axes.set(ylabel="falls so far", title=f"All {len(crowds[0][2].seeds)} runs")
+    _ensemble(
+        axes, [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in ensembles], steps
+    )
+    axes.set(ylabel="falls so far", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set_ylim(bottom=0)
 
 
-def upright(axes: Axes, crowds: Sequence[tuple[str, str, Crowd]]) -> None:
+def upright(axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]]) -> None:
     """The share of steps with |φ| ≤ 20° over the steps; see ``falls``."""
     lines = []
-    for cell, label, crowd in crowds:
-        group = max(1, crowd.upright_share.shape[1] // 100)
-        whole = crowd.upright_share.shape[1] // group * group
-        means = crowd.upright_share[:, :whole].reshape(len(crowd.seeds), -1, group).mean(axis=2)
-        lines.append((cell, label, crowd.last_step[group - 1 : whole : group], 100 * means))
-    _crowd(axes, lines, None)
-    axes.set(ylabel="upright [% of steps]", title=f"All {len(crowds[0][2].seeds)} runs")
+    for cell, label, ensemble in ensembles:
+        group = max(1, ensemble.upright_share.shape[1] // 100)
+        whole = ensemble.upright_share.shape[1] // group * group
+        means = (
+            ensemble.upright_share[:, :whole].reshape(len(ensemble.seeds), -1, group).mean(axis=2)
+        )
+        lines.append((cell, label, ensemble.last_step[group - 1 : whole : group], 100 * means))
+    _ensemble(axes, lines, None)
+    axes.set(ylabel="upright [% of steps]", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
 
 
@@ -120,23 +126,23 @@ def one_and_all(
     Args:
         results: what is drawn.
         cells: ids and labels of the cells.
-        beside: cells whose medians are drawn beside the crowds, for comparison.
+        beside: cells whose medians are drawn beside the ensembles, for comparison.
     """
     if len(cells) == 1 and results.task(cells[0][0]).judged_by == "upright":
         return _three_and_all(results, cells[0], beside)
     figure, panels = grid_of_panels(len(cells))
     shown = []
-    compared = [(cell, label, results.crowd(cell)) for cell, label in beside]
+    compared = [(cell, label, results.ensemble(cell)) for cell, label in beside]
     for row, (cell, label) in enumerate(cells):
         left, right = panels[2 * row : 2 * row + 2]
         shown.append(results.median_run(cell))
-        crowd = results.crowd(cell)
-        by_falls = crowd.task.judged_by == "falls"
-        one_run = angle if by_falls else whereabouts
+        ensemble = results.ensemble(cell)
+        by_falls = ensemble.task.judged_by == "falls"
+        one_run = angle if by_falls else angle_histogram
         one_run(left, shown[-1], cell)
         left.set_title(f"Median run (seed {shown[-1].seed})")
         all_runs = falls if by_falls else upright
-        all_runs(right, [(cell, label, crowd), *compared])
+        all_runs(right, [(cell, label, ensemble), *compared])
         if len(cells) > 1:
             left.set_title(f"{label}: {left.get_title(loc='left').lower()}", loc="left")
     return figure, shown
@@ -149,17 +155,17 @@ def _three_and_all(
     figure, (stack, right) = stack_and_panel(3)
     shown = results.worst_median_best(cell[0])
     for axes, rank, run in zip(stack, ("Worst", "Median", "Best"), shown, strict=True):
-        whereabouts(axes, run, cell[0])
+        angle_histogram(axes, run, cell[0])
         axes.set_title(f"{rank} run (seed {run.seed})")
         if axes is not stack[-1]:
             axes.tick_params(labelbottom=False)
             axes.set_xlabel("")
-    compared = [(name, label, results.crowd(name)) for name, label in beside]
-    upright(right, [(*cell, results.crowd(cell[0])), *compared])
+    compared = [(name, label, results.ensemble(name)) for name, label in beside]
+    upright(right, [(*cell, results.ensemble(cell[0])), *compared])
     return figure, shown
 
 
-def _crowd(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None) -> None:
+def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None) -> None:
     """Lines of all runs of the first cell, thin, and medians of all cells, thick and labelled."""
     ends = []
     for number, (cell, label, last_step, values) in enumerate(lines):

@@ -16,7 +16,7 @@ from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.recording.frames import DRAWN_EVERY, FRAME, STEP, rounded
 from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
-from upswing.runs.results import Crowd, Results
+from upswing.runs.results import Ensemble, Results
 from upswing.runs.simulation import body_of
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput, near
@@ -93,13 +93,13 @@ def write_task(path: Path, results: Results, task: str) -> None:
         recording.save(beside, default_blueprint=layout)
         rr.send_recording_name(f"all runs of {task}: {measure}", recording=recording)
         for cell in cells:
-            crowd = results.crowd(cell)
-            last_step, values = _in_points(crowd)
+            ensemble = results.ensemble(cell)
+            last_step, values = _in_points(ensemble)
             middle = np.median(values, axis=0)
             quartiles = np.quantile(values, (0.25, 0.75), axis=0)
             place, name, shade = _entity(cell), CellId.parse(cell).label, rgb(cell)
             for entity, lines, labels, width in (
-                (f"cells/{place}/runs", values, [f"seed {seed}" for seed in crowd.seeds], THIN),
+                (f"cells/{place}/runs", values, [f"seed {seed}" for seed in ensemble.seeds], THIN),
                 (f"cells/{place}/quartiles", quartiles, ["25 %", "75 %"], MIDDLING),
                 (f"cells/{place}/median", middle[None], ["median"], THICK),
                 (f"medians/{place}", middle[None], [name], MIDDLING),
@@ -194,18 +194,18 @@ def _claimed_run(
     )
 
 
-def _in_points(crowd: Crowd) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The windows of a crowd in at most ``POINTS`` groups: last steps, and values (runs, groups)."""
-    windows = len(crowd.last_step)
+def _in_points(ensemble: Ensemble) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The windows of an ensemble in at most ``POINTS`` groups: last steps, and values (runs, groups)."""
+    windows = len(ensemble.last_step)
     group = -(-windows // POINTS)
     begins = np.arange(0, windows, group)
-    if crowd.task.judged_by == "falls":
-        values = np.add.reduceat(crowd.falls, begins, axis=1)
+    if ensemble.task.judged_by == "falls":
+        values = np.add.reduceat(ensemble.falls, begins, axis=1)
     else:
         sizes = np.diff(begins, append=windows)
-        values = 100 * np.add.reduceat(crowd.upright_share, begins, axis=1) / sizes
+        values = 100 * np.add.reduceat(ensemble.upright_share, begins, axis=1) / sizes
     ends = np.minimum(begins + group, windows) - 1
-    return crowd.last_step[ends], values
+    return ensemble.last_step[ends], values
 
 
 def _send(

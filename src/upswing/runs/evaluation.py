@@ -6,7 +6,7 @@ import numpy as np
 
 from upswing.physics.environment import State, empty_trajectory
 from upswing.runs.metrics import UPRIGHT
-from upswing.runs.simulation import Setting, new_method, streams
+from upswing.runs.simulation import Setting, new_algorithm, streams
 from upswing.runs.success import SUCCESS
 from upswing.study.measured import Greedy
 from upswing.study.spec import Spec
@@ -28,7 +28,7 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
             setting,
             rule=rule,
             state=State(float(angle), 0.0, 0.0, 0.0),
-            method=new_method(spec, setting.coding, decisions),
+            algorithm=new_algorithm(spec, setting.encoder, decisions),
             actions=stream,
             starts=stream,
         )

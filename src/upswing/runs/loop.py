@@ -1,4 +1,4 @@
-"""Q-learning, line for line as in §3.1.3 (and §3.2.2 for networks), for every learner and coding."""
+"""Q-learning, line for line as in §3.1.3 (and §3.2.2 for networks), for every learner and encoder."""
 
 from typing import Any, NamedTuple
 
@@ -18,9 +18,9 @@ from upswing.physics.tasks import Task
 def learn(
     body: Pendulum,
     task: Task,
-    coding: Any,
+    encoder: Any,
     learner: NamedTuple,
-    method: NamedTuple,
+    algorithm: NamedTuple,
     rule: Rule,
     state: State,
     actions: np.random.Generator,
@@ -36,30 +36,30 @@ def learn(
     """
     td_errors = trajectory.td_error
     # Observe starting state s
-    place = locate(coding, state.angle, state.angular_velocity)
+    place = locate(encoder, state.angle, state.angular_velocity)
     # Repeat:
     for t in range(first, last):
-        before_choice(method, coding, learner, rule, td_errors, place)
+        before_choice(algorithm, encoder, learner, rule, td_errors, place)
 
         # Choose a from s using policy derived from Q
         q = values(learner, place)
         action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
-        after_choice(method, coding, learner, rule, td_errors, place, action)
+        after_choice(algorithm, encoder, learner, rule, td_errors, place, action)
 
         # Take action a, observe r, s′
         taken = transition(body, task, rule.discount, state, action, starts)
         seen, after = taken.seen, taken.after
-        next_place = locate(coding, seen.angle, seen.angular_velocity)
+        next_place = locate(encoder, seen.angle, seen.angular_velocity)
 
-        # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]: methods/q_learning.py
+        # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]: algorithms/q_learning.py
         step = Step(
             t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
             next_place, taken.fell, taken.terminal,
         )  # fmt: skip
-        td_error = learn_from(method, coding, learner, rule, td_errors, step)
+        td_error = learn_from(algorithm, encoder, learner, rule, td_errors, step)
         record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
 
         # s ← s′
         state = after
-        place = locate(coding, after.angle, after.angular_velocity) if taken.fell else next_place
+        place = locate(encoder, after.angle, after.angular_velocity) if taken.fell else next_place
     return state

@@ -35,7 +35,7 @@ class OneRun(NamedTuple):
     windows: pd.DataFrame  # the whole run in windows
 
 
-class Crowd(NamedTuple):
+class Ensemble(NamedTuple):
     """All runs of a cell, by window; arrays of shape (runs, windows)."""
 
     task: NamedTask
@@ -156,11 +156,11 @@ class Results:
         """The stored steps of a run."""
         return self._read(run, "trajectory")
 
-    def crowd(self, cell: str) -> Crowd:
+    def ensemble(self, cell: str) -> Ensemble:
         """All runs of a cell."""
         rows = self.cell(cell)
         windows = [self._read(run, "windows") for run in rows["run"]]
-        return Crowd(
+        return Ensemble(
             task=self.task(cell),
             seeds=[int(seed) for seed in rows["seed"]],
             last_step=(windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float),

@@ -6,10 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from upswing.agents import algorithms as methods
-from upswing.agents import features as codings
-from upswing.agents import learners
-from upswing.agents.features import Coding
+from upswing.agents import algorithms, features, learners
+from upswing.agents.features import Encoder
 from upswing.agents.learners import Learner
 from upswing.agents.policy import Rule
 from upswing.physics import tasks
@@ -38,10 +36,10 @@ class Setting:
 
     body: Pendulum
     task: Task
-    coding: Coding
+    encoder: Encoder
     rule: Rule
     learner: Learner
-    method: NamedTuple
+    algorithm: NamedTuple
     state: State
     actions: np.random.Generator
     starts: np.random.Generator
@@ -51,8 +49,8 @@ class Setting:
         own_loop = getattr(self.learner, "advance", None)
         learn = loop.learn if own_loop is None else own_loop
         self.state = learn(
-            self.body, self.task, self.coding, self.learner.stepped, self.method, self.rule, self.state,
-            self.actions, self.starts, trajectory, first, last,
+            self.body, self.task, self.encoder, self.learner.stepped, self.algorithm, self.rule,
+            self.state, self.actions, self.starts, trajectory, first, last,
         )  # fmt: skip
 
 
@@ -68,12 +66,12 @@ def prepare(spec: Spec, seed: int) -> Setting:
     options = settings.model_dump()
     actions, starts, weights, _, decisions = streams(seed)
     task = tasks.create(spec.task.kind, readings, spec.task.model_dump())
-    coding = codings.create(settings.coding, codings.Plan(task, options, readings))
+    encoder = features.create(settings.coding, features.Plan(task, options, readings))
     scale = REWARD_SCALES[readings.reward_unit]
     learner = learners.create(
         settings.learner,
         learners.Beginning(
-            coding=coding,
+            encoder=encoder,
             options=options,
             readings=readings,
             lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
@@ -92,18 +90,18 @@ def prepare(spec: Spec, seed: int) -> Setting:
     return Setting(
         body=body_of(spec),
         task=task,
-        coding=coding,
+        encoder=encoder,
         rule=rule,
         learner=learner,
-        method=new_method(spec, coding, decisions),
+        algorithm=new_algorithm(spec, encoder, decisions),
         state=State(*tasks.start(task, starts), 0.0, 0.0),
         actions=actions,
         starts=starts,
     )
 
 
-def new_method(spec: Spec, coding: Coding, draws: np.random.Generator) -> NamedTuple:
+def new_algorithm(spec: Spec, encoder: Encoder, draws: np.random.Generator) -> NamedTuple:
     """The algorithm of ``spec`` with nothing remembered."""
     options = spec.architecture.model_dump()
-    design = methods.Design(coding, float(spec.discount), options, spec.readings, draws)
-    return methods.create(spec.architecture.method, design)
+    design = algorithms.Design(encoder, float(spec.discount), options, spec.readings, draws)
+    return algorithms.create(spec.architecture.method, design)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.agents.features import Coding, locate
+from upswing.agents.features import Encoder, locate
 from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.agents.learners import Learner
 
@@ -33,10 +33,10 @@ def moments(steps: int) -> NDArray[np.int64]:
     return np.unique(np.concatenate([spread, early]).round().astype(np.int64))
 
 
-def snapshots(coding: Coding, looked: list[tuple[int, Real]]) -> Snapshots:
+def snapshots(encoder: Encoder, looked: list[tuple[int, Real]]) -> Snapshots:
     """What was looked at: (step, what ``look`` gave) of each moment."""
-    rows, columns, limit = coding.picture
-    owner = np.array([place.module for place in places(coding)]).reshape(rows, columns)
+    rows, columns, limit = encoder.picture
+    owner = np.array([place.module for place in places(encoder)]).reshape(rows, columns)
     return Snapshots(
         steps=np.array([step for step, _ in looked]),
         q=np.stack([values for _, values in looked]),
@@ -45,18 +45,20 @@ def snapshots(coding: Coding, looked: list[tuple[int, Real]]) -> Snapshots:
     )
 
 
-def look(learner: Learner, coding: Coding) -> Real:
-    """What a learner knows now: (angle parts, velocity parts, actions) of its coding's picture."""
-    rows, columns, _ = coding.picture
-    return learner.action_values(places(coding)).reshape(rows, columns, -1)
+def look(learner: Learner, encoder: Encoder) -> Real:
+    """What a learner knows now: (angle parts, velocity parts, actions) of its encoder's picture."""
+    rows, columns, _ = encoder.picture
+    return learner.action_values(places(encoder)).reshape(rows, columns, -1)
 
 
 @cache
-def places(coding: Coding) -> list[Any]:
-    """The places at the middle of every part of a coding's picture, a row of φ after the other."""
-    rows, columns, limit = coding.picture
+def places(encoder: Encoder) -> list[Any]:
+    """The places at the middle of every part of an encoder's picture, a row of φ after the other."""
+    rows, columns, limit = encoder.picture
     angles = -limit + (np.arange(rows) + 0.5) * 2 * limit / rows
     velocities = -VELOCITY_LIMIT + (np.arange(columns) + 0.5) * 2 * VELOCITY_LIMIT / columns
     return [
-        locate(coding, float(angle), float(velocity)) for angle in angles for velocity in velocities
+        locate(encoder, float(angle), float(velocity))
+        for angle in angles
+        for velocity in velocities
     ]

@@ -110,15 +110,15 @@ def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
     """One run from its beginning, recorded in ``trajectory``, which has room for its steps."""
     setting = prepare(spec, seed)
     setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
-    seconds, looked = 0.0, [(0, look(setting.learner, setting.coding))]
+    seconds, looked = 0.0, [(0, look(setting.learner, setting.encoder))]
     for first, last in pairwise(moments(spec.task.steps).tolist()):
         begin = perf_counter()
         setting.advance(trajectory, first, last)
         seconds += perf_counter() - begin
-        looked.append((last, look(setting.learner, setting.coding)))
+        looked.append((last, look(setting.learner, setting.encoder)))
     if spec.alpha is None:
         trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
-    return Run(trajectory, setting, snapshots(setting.coding, looked), seconds)
+    return Run(trajectory, setting, snapshots(setting.encoder, looked), seconds)
 
 
 def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:

@@ -21,12 +21,12 @@ class Architecture(Strict):
     learner: Annotated[str, part_name("learners"), part_schema("learners")] = Field(
         description="What holds Q; a file in src/upswing/agents/learners."
     )
-    coding: Annotated[str, part_name("codings"), part_schema("codings")] = Field(
+    coding: Annotated[str, part_name("features"), part_schema("features")] = Field(
         default="grid",
         description="The feature encoder: what the learner is told of a state; a file in "
         "src/upswing/agents/features.",
     )
-    method: Annotated[str, part_name("methods"), part_schema("methods")] = Field(
+    method: Annotated[str, part_name("algorithms"), part_schema("algorithms")] = Field(
         default="q-learning",
         description="The algorithm: how it learns from a step; a file in "
         "src/upswing/agents/algorithms.",
@@ -88,7 +88,7 @@ class NamedArchitecture(Architecture):
 
 
 ARCHITECTURES = Family(
-    Architecture, {"learner": "learners", "coding": "codings", "method": "methods"}
+    Architecture, {"learner": "learners", "coding": "features", "method": "algorithms"}
 )
 AnyArchitecture = Annotated[SerializeAsAny[Architecture], ARCHITECTURES.chooser(Architecture)]
 AnyNamedArchitecture = Annotated[

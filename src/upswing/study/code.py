@@ -40,9 +40,9 @@ def loaded_by_name(architecture: Architecture, kind: str) -> tuple[str, ...]:
     """The modules that are loaded by name when an architecture learns a kind of task."""
     named = [
         ("tasks", kind),
-        ("codings", architecture.coding),
+        ("features", architecture.coding),
         ("learners", architecture.learner),
-        ("methods", architecture.method),
+        ("algorithms", architecture.method),
     ]
     named += [("learners", inner) for inner in architecture.inner_learners()]
     return tuple(module_of(part, name) for part, name in named)

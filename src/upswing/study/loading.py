@@ -1,4 +1,4 @@
-"""Parts that are chosen by the name of their file: tasks, codings, learners, methods, figures.
+"""Parts that are chosen by the name of their file, as tasks, learners and figures are.
 
 They are imported when they are needed, so that a table never waits for torch.
 """
@@ -9,9 +9,9 @@ from typing import Any
 
 PACKAGES = {
     "tasks": "upswing.physics.tasks",
-    "codings": "upswing.agents.features",
+    "features": "upswing.agents.features",
     "learners": "upswing.agents.learners",
-    "methods": "upswing.agents.algorithms",
+    "algorithms": "upswing.agents.algorithms",
     "figures": "upswing.figures",
 }
 """Where the parts of each kind lie."""
@@ -19,7 +19,7 @@ PACKAGES = {
 MARKS = {"figures": "\nFIGURE = "}
 """What a file has that is a part, where others lie beside it."""
 
-COMPILED = ("codings", "learners", "methods", "tasks")
+COMPILED = ("features", "learners", "algorithms", "tasks")
 """The kinds whose parts hold compiled code."""
 
 SOURCE = Path(__file__).parents[2]

@@ -25,7 +25,7 @@ message.
 
 
 OPTIONS_HEAD = """\
-The learner, the coding, the method and the kind of task may have options of their own, which stand
+The learner, the feature encoder, the algorithm and the kind of task may have options of their own, which stand
 beside the keys above. They are declared in the file of the part, in a class `Options`.
 """
 

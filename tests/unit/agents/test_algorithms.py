@@ -56,8 +56,8 @@ def test_q_lambda_without_a_trace_is_q_learning(kind):
 
 def test_where_the_future_does_not_count_all_methods_agree():
     runs = [
-        run(beyond_spec("balancing", alpha=0.5, method=method, discount=0.0, epsilon=1.0, **options))[1]["q"]
-        for method, options in (
+        run(beyond_spec("balancing", alpha=0.5, method=algorithm, discount=0.0, epsilon=1.0, **options))[1]["q"]
+        for algorithm, options in (
             ("q-learning", {}), ("sarsa", {}), ("q-lambda", {"trace": 0.9}), ("monte-carlo", {}),
         )
     ]  # fmt: skip
@@ -69,23 +69,23 @@ def test_where_the_future_does_not_count_all_methods_agree():
 
 @pytest.mark.parametrize("method", ["sarsa", "q-lambda", "monte-carlo"])
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_run_in_pieces_is_the_run_in_one(kind, method):
-    options = {"trace": 0.9} if method == "q-lambda" else {}
-    spec = beyond_spec(kind, alpha=0.5, method=method, **options)
+def test_a_run_in_pieces_is_the_run_in_one(kind, algorithm):
+    options = {"trace": 0.9} if algorithm == "q-lambda" else {}
+    spec = beyond_spec(kind, alpha=0.5, method=algorithm, **options)
     (whole, learned), (pieces, again) = run(spec), run(spec, pieces=7)
     assert_same(whole, pieces)
     np.testing.assert_array_equal(learned["q"], again["q"])
 
 
 @pytest.mark.parametrize("method", ["sarsa", "monte-carlo"])
-def test_an_error_is_recorded_at_the_step_it_belongs_to(method):
-    spec = beyond_spec("full-control", alpha=0.5, method=method, steps=300, epsilon=1.0)
+def test_an_error_is_recorded_at_the_step_it_belongs_to(algorithm):
+    spec = beyond_spec("full-control", alpha=0.5, method=algorithm, steps=300, epsilon=1.0)
     trajectory, _ = run(spec)
     errors = trajectory.td_error
-    late = 1 if method == "sarsa" else HORIZON - 1
+    late = 1 if algorithm == "sarsa" else HORIZON - 1
     assert np.isnan(errors[-late:]).all()
     assert not np.isnan(errors[:-late]).any()
-    if method == "monte-carlo":  # the first visit of all: Q was zero
+    if algorithm == "monte-carlo":  # the first visit of all: Q was zero
         expected = sum(0.7**n * float(trajectory.reward[n]) for n in range(HORIZON))
         assert errors[0] == pytest.approx(expected, rel=1e-4)
     else:

@@ -56,10 +56,10 @@ DEFAULTS = architecture_of(learner="dqn", coding="continuous", hidden=(1,))
 def learner_of(hidden, lowest_q=-1000.0, **options):
     readings = Readings()
     task = tasks.create("full-control", readings)
-    coding = create_coding("continuous", Plan(task, {}, readings))
+    encoder = create_coding("continuous", Plan(task, {}, readings))
     options = {**DEFAULTS.model_dump(), "hidden": hidden, **options}
     return create_learner(
-        "dqn", Beginning(coding, options, readings, lowest_q, np.random.default_rng(0))
+        "dqn", Beginning(encoder, options, readings, lowest_q, np.random.default_rng(0))
     )
 
 

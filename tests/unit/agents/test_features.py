@@ -1,4 +1,4 @@
-"""Codings beyond the thesis's grid: every state has its places, and neighbours share what they should."""
+"""Feature encoders beyond the thesis's grid: every state has its places, and neighbours share what they should."""
 
 from math import pi
 
@@ -20,24 +20,24 @@ ANGLES = st.floats(-pi, pi, exclude_max=True)
 SPEEDS = st.floats(-40, 40)
 
 
-def coding(name, kind="full-control", **readings):
+def encoder(name, kind="full-control", **readings):
     task = tasks.create(kind, Readings(**readings))
     return create(name, Plan(task, OPTIONS, Readings(**readings)))
 
 
-@pytest.mark.parametrize("name", [name for name in parts("codings") if name != "continuous"])
+@pytest.mark.parametrize("name", [name for name in parts("features") if name != "continuous"])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("wrap", ["wrapped", "unbounded"])
 @given(angle=st.floats(-30, 30), speed=SPEEDS)
 def test_every_state_has_tiles_that_are_there(name, kind, wrap, angle, speed):
-    one = coding(name, kind, wrap=wrap)
+    one = encoder(name, kind, wrap=wrap)
     place = locate(one, angle, speed)
     assert 0 <= place.module < one.modules
     assert all(0 <= tile < one.tiles for tile in place.tiles)
     assert len(set(place.tiles)) == len(place.tiles)
 
 
-@pytest.mark.parametrize("name", parts("codings"))
+@pytest.mark.parametrize("name", parts("features"))
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_compiled_coding_is_the_one_in_python(name, kind):
     from upswing.physics.jit import compiled
@@ -46,7 +46,7 @@ def test_the_compiled_coding_is_the_one_in_python(name, kind):
     def answer(one, angle, speed):
         return locate(one, angle, speed)
 
-    one = coding(name, kind)
+    one = encoder(name, kind)
     for angle, speed in np.random.default_rng(0).uniform(-1, 1, (50, 2)) * (pi, 25):
         assert answer(one, angle, speed) == locate(one, angle, speed)
 
@@ -54,8 +54,8 @@ def test_the_compiled_coding_is_the_one_in_python(name, kind):
 @given(angle=ANGLES, speed=SPEEDS)
 def test_fine_tiles_lie_in_those_of_the_thesis(angle, speed):
     fine, coarse = (
-        coding("fine"),
-        coding("grid"),
+        encoder("fine"),
+        encoder("grid"),
     )
     row, column = divmod(locate(fine, angle, speed).tiles[0], fine.velocity_parts)
     (tile,) = locate(coarse, angle, speed).tiles
@@ -63,15 +63,15 @@ def test_fine_tiles_lie_in_those_of_the_thesis(angle, speed):
 
 
 def test_fine_tiles_of_one_cut_more_are_as_many_as_they_should_be():
-    assert coding("fine").tiles == 32 * 80
-    assert coding("fine", "balancing").tiles == 16 * 80
+    assert encoder("fine").tiles == 32 * 80
+    assert encoder("fine", "balancing").tiles == 16 * 80
 
 
 def test_hashing_depends_on_the_fine_tile_alone_and_uses_all_entries_about_equally():
-    hashed = coding("hashed")
+    hashed = encoder("hashed")
     counts = np.zeros(hashed.entries)
     fine_of = {}
-    for place, fine_place in zip(places(hashed), places(coding("fine")), strict=True):
+    for place, fine_place in zip(places(hashed), places(encoder("fine")), strict=True):
         counts[place.tiles[0]] += 1
         fine_of.setdefault(fine_place.tiles, set()).add(place.tiles)
     assert all(len(entries) == 1 for entries in fine_of.values())
@@ -81,7 +81,7 @@ def test_hashing_depends_on_the_fine_tile_alone_and_uses_all_entries_about_equal
 
 
 def test_hashing_scatters_neighbours():
-    hashed = coding("hashed")
+    hashed = encoder("hashed")
     entries = np.array([place.tiles[0] for place in places(hashed)]).reshape(32, 80)
     assert np.mean(entries[:, 1:] == entries[:, :-1]) < 0.05
     assert np.mean(entries[1:] == entries[:-1]) < 0.05
@@ -91,17 +91,17 @@ def test_hashing_scatters_neighbours():
 @example(angle=3.1415926535897927, speed=0.0)  # (φ + π) / (2π/8) rounds up to 8
 @example(angle=-pi, speed=0.0)
 def test_the_first_tiling_is_the_grid_of_the_thesis(angle, speed):
-    (first, *_) = locate(coding("tilings"), angle, speed).tiles
-    (tile,) = locate(coding("grid"), angle, speed).tiles
+    (first, *_) = locate(encoder("tilings"), angle, speed).tiles
+    (tile,) = locate(encoder("grid"), angle, speed).tiles
     assert divmod(first, 21) == divmod(tile, 20)
 
 
-@pytest.mark.parametrize("name", [name for name in parts("codings") if name != "continuous"])
+@pytest.mark.parametrize("name", [name for name in parts("features") if name != "continuous"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_last_angle_below_the_limit_lies_in_the_last_part_and_the_limit_begins_the_first(
     name, kind
 ):
-    one = coding(name, kind)
+    one = encoder(name, kind)
     limit = one.grid.angle_limit if name == "hashed" else one.angle_limit
     for edge, inside in ((np.nextafter(limit, 0.0), limit - 1e-6), (-limit, -limit + 1e-6)):
         assert locate(one, float(edge), 0.5) == locate(one, float(inside), 0.5)
@@ -109,7 +109,7 @@ def test_the_last_angle_below_the_limit_lies_in_the_last_part_and_the_limit_begi
 
 @given(angle=st.floats(-pi + 1e-9, pi - 1e-9), speed=st.floats(-17, 17))
 def test_states_share_more_tilings_the_nearer_they_are(angle, speed):
-    tilings = coding("tilings")
+    tilings = encoder("tilings")
 
     def shared(a, b):
         return len(set(locate(tilings, *a).tiles) & set(locate(tilings, *b).tiles))
@@ -126,8 +126,8 @@ def test_states_share_more_tilings_the_nearer_they_are(angle, speed):
 
 def test_tilings_tell_apart_what_one_grid_cannot():
     tilings, grid = (
-        coding("tilings"),
-        coding("grid"),
+        encoder("tilings"),
+        encoder("grid"),
     )
     speeds = np.linspace(0.01, 1.99, 200)
     assert len({locate(grid, 0.1, speed) for speed in speeds}) == 1
@@ -137,15 +137,15 @@ def test_tilings_tell_apart_what_one_grid_cannot():
 def test_tilings_come_round_only_where_the_angle_does():
     just_below, just_above = (pi - 1e-6, 0.5), (-pi + 1e-6, 0.5)
     for wrap, common in (("wrapped", TILINGS - 1), ("unbounded", 0)):
-        tilings = coding("tilings", wrap=wrap)
+        tilings = encoder("tilings", wrap=wrap)
         one, other = (set(locate(tilings, *state).tiles) for state in (just_below, just_above))
         assert len(one & other) == common
 
 
 def test_the_state_itself_is_told_as_it_is():
-    assert locate(coding("continuous"), 0.25, -3.5) == Point(0, 0.25, -3.5)
+    assert locate(encoder("continuous"), 0.25, -3.5) == Point(0, 0.25, -3.5)
 
 
 def test_a_picture_covers_the_grid():
-    assert places(coding("tilings"))[0] != places(coding("tilings"))[-1]
-    assert places(coding("grid")) == [Place(0, (tile,)) for tile in range(160)]
+    assert places(encoder("tilings"))[0] != places(encoder("tilings"))[-1]
+    assert places(encoder("grid")) == [Place(0, (tile,)) for tile in range(160)]

@@ -19,7 +19,7 @@ def grid_of(kind, modular, readings):
     return tiles_for(tasks.create(kind, readings), modular, readings)
 
 
-codings = st.builds(
+encoders = st.builds(
     grid_of,
     st.sampled_from(["balancing", "full-control"]),
     st.booleans(),
@@ -28,7 +28,7 @@ codings = st.builds(
 HALF_TURN, RADIANS = Readings(), Readings(angle_unit="radians")
 
 
-@given(codings, any_angles, velocities)
+@given(encoders, any_angles, velocities)
 def test_every_state_has_a_tile_of_an_existing_module(tiles, angle, velocity):
     module, (tile,) = locate(tiles, angle, velocity)
     assert 0 <= module < tiles.modules

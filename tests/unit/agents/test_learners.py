@@ -19,13 +19,13 @@ BIASES = ["none", "hidden", "both"]
 def make(name, seed=0, coding=None, hidden=(), **readings):
     options = {"hidden": hidden, "halved_after": 10.0}
     chosen = Readings(**{"initial_weights": 1.0, **readings})
-    coding = coding or tiles_for(tasks.create("full-control", chosen), False, chosen)
+    encoder = coding or tiles_for(tasks.create("full-control", chosen), False, chosen)
     weights = np.random.default_rng(seed)
-    return create(name, Beginning(coding, options, chosen, -1.0, weights))
+    return create(name, Beginning(encoder, options, chosen, -1.0, weights))
 
 
 def continuous():
-    return prepare(beyond_spec(learner="networks", coding="continuous", hidden=(4,)), 0).coding
+    return prepare(beyond_spec(learner="networks", coding="continuous", hidden=(4,)), 0).encoder
 
 
 def assert_learns_like(learner, oracle, forward, place_of, seed=3):

@@ -58,15 +58,15 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
 def test_snapshots_are_what_was_known_then():
     spec = make_spec("full-control", "modular-table", 0.5, 4_000)
     setting = prepare(spec, 0)
-    looked = [(0, look(setting.learner, setting.coding))]
+    looked = [(0, look(setting.learner, setting.encoder))]
     trajectory = empty_trajectory(4_000)
     setting.advance(trajectory, 0, 4_000)
-    looked.append((4_000, look(setting.learner, setting.coding)))
-    seen = snapshots(setting.coding, looked)
+    looked.append((4_000, look(setting.learner, setting.encoder)))
+    seen = snapshots(setting.encoder, looked)
     assert seen.q.shape == (2, 8, 20, 3)
     assert (seen.q[0] == 0).all()
     for angle, velocity in [(0.1, 0.1), (3.0, -7.0), (-2.0, 19.0), (-0.5, 0.5)]:
-        module, (tile,) = locate(setting.coding, angle, velocity)
+        module, (tile,) = locate(setting.encoder, angle, velocity)
         row, column = int((angle + np.pi) // (np.pi / 4)), int((velocity + 20) // 2)
         np.testing.assert_array_equal(
             seen.q[1, row, column], setting.learner.learned["q"][module, tile]

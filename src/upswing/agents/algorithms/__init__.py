@@ -1,12 +1,12 @@
-"""Methods: what is learned from a step, and when (§2.4, §3.1).
+"""Algorithms: what is learned from a step, and when (§2.4, §3.1).
 
-A method is a named tuple of arrays (empty if nothing is remembered), so that the loop can step it in
+An algorithm is a named tuple of arrays (empty if nothing is remembered), so that the loop can step it in
 place. Its file gives a body to ``learn_from``, to the other two functions where it needs them, and has a
-function ``create`` that makes one for a run. Methods are imported by name, as learners are.
+function ``create`` that makes one for a run. Algorithms are imported by name, as learners are.
 
-The readings R13 (``bootstrap_sign``) and R14 (``hand_over``) are about the thesis's own method; others
-need not know them. Of a step that fell and is not terminal, s′ is the fallen state (R7): it has a place,
-and no action is ever taken in it.
+The readings R13 (``bootstrap_sign``) and R14 (``hand_over``) are about the thesis's own algorithm;
+others need not know them. Of a step that fell and is not terminal, s′ is the fallen state (R7): it has a
+place, and no action is ever taken in it.
 """
 
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from upswing.agents.features import Coding
+from upswing.agents.features import Encoder
 from upswing.agents.policy import Q, Rule
 from upswing.physics.jit import ByType
 from upswing.study.loading import load
@@ -28,7 +28,7 @@ class Step(NamedTuple):
     t: int
     angle: float  # φ of s [rad]
     angular_velocity: float  # φ̇ of s [rad/s]
-    place: Any  # of s in the coding
+    place: Any  # of s in the encoder
     q: Q  # Q(s, ·)
     action: int  # a
     reward: float  # r, in R3's unit, with all that a learner is told
@@ -38,19 +38,19 @@ class Step(NamedTuple):
 
 
 def _before_choice(
-    method: Any, coding: Any, learner: Any, rule: Rule, td_errors: Any, place: Any
+    algorithm: Any, encoder: Any, learner: Any, rule: Rule, td_errors: Any, place: Any
 ) -> None:
     """What can be learned on arriving in a state, before an action is chosen there."""
 
 
 def _after_choice(
-    method: Any, coding: Any, learner: Any, rule: Rule, td_errors: Any, place: Any, action: int
+    algorithm: Any, encoder: Any, learner: Any, rule: Rule, td_errors: Any, place: Any, action: int
 ) -> None:
     """What can be learned once an action has been chosen, before it is taken."""
 
 
 def _learn_from(
-    method: Any, coding: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
+    algorithm: Any, encoder: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
 ) -> float:
     """Learn from a step; δ in R3's unit, NaN if its update comes later.
 
@@ -71,13 +71,13 @@ after_choice_of = _after_choice_by_type.register
 learn_from_of = _learn_from_by_type.register
 
 Q_LEARNING = "q-learning"
-"""The method of the thesis."""
+"""The algorithm of the thesis."""
 
 
 class Design(NamedTuple):
-    """What a method is made from."""
+    """What an algorithm is made from."""
 
-    coding: Coding  # the feature encoder: how many tiles and modules there are
+    encoder: Encoder  # the feature encoder: how many tiles and modules there are
     discount: float  # γ
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
@@ -85,8 +85,10 @@ class Design(NamedTuple):
 
 
 def create(name: str, design: Design) -> NamedTuple:
-    """A method, by the name of its file in this folder, with nothing remembered."""
-    method: NamedTuple = load("methods", name).create(design)
-    if type(method) not in _learn_from_by_type.bodies:
-        raise TypeError(f"method {name}: no body under @learn_from_of({type(method).__name__})")
-    return method
+    """An algorithm, by the name of its file in this folder, with nothing remembered."""
+    algorithm: NamedTuple = load("algorithms", name).create(design)
+    if type(algorithm) not in _learn_from_by_type.bodies:
+        raise TypeError(
+            f"algorithm {name}: no body under @learn_from_of({type(algorithm).__name__})"
+        )
+    return algorithm

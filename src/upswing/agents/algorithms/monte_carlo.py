@@ -33,41 +33,41 @@ class MonteCarlo(NamedTuple):
 
 @learn_from_of(MonteCarlo)
 def _learn_from(
-    method: MonteCarlo, coding: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
+    algorithm: MonteCarlo, encoder: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
 ) -> float:
-    room = len(method.action)
+    room = len(algorithm.action)
     here = step.t % room
-    method.angle[here], method.angular_velocity[here] = step.angle, step.angular_velocity
-    method.action[here], method.reward[here] = step.action, step.reward
-    method.waiting[0] += 1
+    algorithm.angle[here], algorithm.angular_velocity[here] = step.angle, step.angular_velocity
+    algorithm.action[here], algorithm.reward[here] = step.action, step.reward
+    algorithm.waiting[0] += 1
     td_errors[step.t] = nan
     if step.fell:  # the end of an episode: all returns are complete
-        while method.waiting[0] > 0:
-            _learn_oldest(method, coding, learner, rule, td_errors, step.t)
-    elif method.waiting[0] == room:
-        _learn_oldest(method, coding, learner, rule, td_errors, step.t)
+        while algorithm.waiting[0] > 0:
+            _learn_oldest(algorithm, encoder, learner, rule, td_errors, step.t)
+    elif algorithm.waiting[0] == room:
+        _learn_oldest(algorithm, encoder, learner, rule, td_errors, step.t)
     own_error: float = td_errors[step.t] * rule.reward_scale
     return own_error
 
 
 @compiled
 def _learn_oldest(
-    method: MonteCarlo, coding: Any, learner: Any, rule: Rule, td_errors: Any, now: int
+    algorithm: MonteCarlo, encoder: Any, learner: Any, rule: Rule, td_errors: Any, now: int
 ) -> None:
     """Q(s, a) ← Q(s, a) + α [return − Q(s, a)] for the step that has waited longest."""
-    room = len(method.action)
-    waiting = method.waiting[0]
+    room = len(algorithm.action)
+    waiting = algorithm.waiting[0]
     return_ = 0.0
     for back in range(waiting):
-        return_ = method.reward[(now - back) % room] + rule.discount * return_
+        return_ = algorithm.reward[(now - back) % room] + rule.discount * return_
     oldest = now - waiting + 1
     visit = oldest % room
-    action = method.action[visit]
-    place = locate(coding, method.angle[visit], method.angular_velocity[visit])
+    action = algorithm.action[visit]
+    place = locate(encoder, algorithm.angle[visit], algorithm.angular_velocity[visit])
     error = return_ - values(learner, place)[action]
     update(learner, place, action, rule.step_size * error)
     td_errors[oldest] = error / rule.reward_scale
-    method.waiting[0] = waiting - 1
+    algorithm.waiting[0] = waiting - 1
 
 
 def create(design: Design) -> MonteCarlo:

@@ -40,27 +40,27 @@ class QLambda(NamedTuple):
 
 @learn_from_of(QLambda)
 def _learn_from(
-    method: QLambda, coding: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
+    algorithm: QLambda, encoder: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
 ) -> float:
-    room = len(method.action)
+    room = len(algorithm.action)
     if step.q[step.action] < max(step.q):  # an exploring action: what led here did not lead to it
-        method.filled[0] = 0
-    newest = method.filled[1]
-    method.angle[newest], method.angular_velocity[newest] = step.angle, step.angular_velocity
-    method.action[newest] = step.action
-    method.filled[0] = min(method.filled[0] + 1, room)
-    method.filled[1] = (newest + 1) % room
+        algorithm.filled[0] = 0
+    newest = algorithm.filled[1]
+    algorithm.angle[newest], algorithm.angular_velocity[newest] = step.angle, step.angular_velocity
+    algorithm.action[newest] = step.action
+    algorithm.filled[0] = min(algorithm.filled[0] + 1, room)
+    algorithm.filled[1] = (newest + 1) % room
 
     next_value = 0.0 if step.terminal else max(values(learner, step.next_place))
     td_error = step.reward + rule.discount * next_value - step.q[step.action]
     trace = 1.0
-    for back in range(method.filled[0]):
+    for back in range(algorithm.filled[0]):
         visit = (newest - back) % room
-        place = locate(coding, method.angle[visit], method.angular_velocity[visit])
-        update(learner, place, method.action[visit], rule.step_size * td_error * trace)
-        trace *= rule.discount * method.trace
+        place = locate(encoder, algorithm.angle[visit], algorithm.angular_velocity[visit])
+        update(learner, place, algorithm.action[visit], rule.step_size * td_error * trace)
+        trace *= rule.discount * algorithm.trace
     if step.fell:
-        method.filled[0] = 0
+        algorithm.filled[0] = 0
     return td_error
 
 

@@ -29,18 +29,18 @@ class QLearning(NamedTuple):
 
 @learn_from_of(QLearning)
 def _learn_from(
-    method: QLearning, coding: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
+    algorithm: QLearning, encoder: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
 ) -> float:
     module = step.place.module
     handed_over = step.next_place.module != module
-    if handed_over and method.hand_over == OWN and not step.terminal:
-        method.step[module], method.action[module] = step.t, step.action
-        method.angle[module] = step.angle
-        method.angular_velocity[module] = step.angular_velocity
-        method.reward[module] = step.reward
+    if handed_over and algorithm.hand_over == OWN and not step.terminal:
+        algorithm.step[module], algorithm.action[module] = step.t, step.action
+        algorithm.angle[module] = step.angle
+        algorithm.angular_velocity[module] = step.angular_velocity
+        algorithm.reward[module] = step.reward
         return nan
     # Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, a′) − Q(s, a)]   (eq. 12; eq. 11 with α = 1)
-    if step.terminal or (handed_over and method.hand_over == TERMINAL):
+    if step.terminal or (handed_over and algorithm.hand_over == TERMINAL):
         bootstrap = 0.0
     else:
         next_q = values(learner, step.next_place)
@@ -52,27 +52,27 @@ def _learn_from(
 
 @before_choice_of(QLearning)
 def _before_choice(
-    method: QLearning, coding: Any, learner: Any, rule: Rule, td_errors: Any, place: Any
+    algorithm: QLearning, encoder: Any, learner: Any, rule: Rule, td_errors: Any, place: Any
 ) -> None:
     """Do the update that a module left open, now that it is in control again."""
     module = place.module
-    when = method.step[module]
+    when = algorithm.step[module]
     if when == NOTHING_OPEN:
         return
     next_value = max(values(learner, place))
-    left = locate(coding, method.angle[module], method.angular_velocity[module])
-    action = method.action[module]
+    left = locate(encoder, algorithm.angle[module], algorithm.angular_velocity[module])
+    action = algorithm.action[module]
     q = values(learner, left)
     bootstrap = rule.bootstrap_sign * rule.discount * next_value
-    td_error = method.reward[module] + bootstrap - q[action]
+    td_error = algorithm.reward[module] + bootstrap - q[action]
     update(learner, left, action, rule.step_size * td_error)
     td_errors[when] = td_error / rule.reward_scale
-    method.step[module] = NOTHING_OPEN
+    algorithm.step[module] = NOTHING_OPEN
 
 
 def create(design: Design) -> QLearning:
     """Q-learning with no update left open."""
-    step, action = (np.full(design.coding.modules, NOTHING_OPEN, dtype=np.int64) for _ in range(2))
-    angle, angular_velocity, reward = (np.zeros(design.coding.modules) for _ in range(3))
+    step, action = (np.full(design.encoder.modules, NOTHING_OPEN, dtype=np.int64) for _ in range(2))
+    angle, angular_velocity, reward = (np.zeros(design.encoder.modules) for _ in range(3))
     hand_over = HAND_OVERS[design.readings.hand_over]
     return QLearning(hand_over, step, angle, angular_velocity, action, reward)

@@ -26,23 +26,31 @@ class Sarsa(NamedTuple):
 
 @after_choice_of(Sarsa)
 def _after_choice(
-    method: Sarsa, coding: Any, learner: Any, rule: Rule, td_errors: Any, place: Any, action: int
+    algorithm: Sarsa,
+    encoder: Any,
+    learner: Any,
+    rule: Rule,
+    td_errors: Any,
+    place: Any,
+    action: int,
 ) -> None:
-    when = method.step[0]
+    when = algorithm.step[0]
     if when == NOTHING:
         return
     # Q(s, a) ← Q(s, a) + α [r + γ Q(s′, a′) − Q(s, a)]
-    before = locate(coding, method.angle[0], method.angular_velocity[0])
+    before = locate(encoder, algorithm.angle[0], algorithm.angular_velocity[0])
     next_q = values(learner, place)[action]
-    td_error = method.reward[0] + rule.discount * next_q - values(learner, before)[method.action[0]]
-    update(learner, before, method.action[0], rule.step_size * td_error)
+    td_error = (
+        algorithm.reward[0] + rule.discount * next_q - values(learner, before)[algorithm.action[0]]
+    )
+    update(learner, before, algorithm.action[0], rule.step_size * td_error)
     td_errors[when] = td_error / rule.reward_scale
-    method.step[0] = NOTHING
+    algorithm.step[0] = NOTHING
 
 
 @learn_from_of(Sarsa)
 def _learn_from(
-    method: Sarsa, coding: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
+    algorithm: Sarsa, encoder: Any, learner: Any, rule: Rule, td_errors: Any, step: Step
 ) -> float:
     if step.fell:
         # No action follows in a fallen state: R7 says what it is worth, and there is no exploring in it.
@@ -52,8 +60,8 @@ def _learn_from(
         td_error = step.reward + rule.discount * next_value - q
         update(learner, step.place, step.action, rule.step_size * td_error)
         return td_error
-    method.step[0], method.action[0], method.reward[0] = step.t, step.action, step.reward
-    method.angle[0], method.angular_velocity[0] = step.angle, step.angular_velocity
+    algorithm.step[0], algorithm.action[0], algorithm.reward[0] = step.t, step.action, step.reward
+    algorithm.angle[0], algorithm.angular_velocity[0] = step.angle, step.angular_velocity
     return nan
 
 

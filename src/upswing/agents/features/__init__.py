@@ -1,9 +1,9 @@
-"""Codings: what of a state (φ, φ̇) a learner is told (§3.3).
+"""Feature encoders: what of a state (φ, φ̇) a learner is told (§3.3).
 
-A coding is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
+An encoder is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
 ``locate``, which answers with a place, and has a function ``create`` that makes one for a run; options
-of its own, and what it gives a learner, stand there in a class ``Options``. Codings are imported by
-name, as learners are.
+of its own, and what it gives a learner, stand there in a class ``Options``. Feature encoders are
+imported by name, as learners are.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ class Place(NamedTuple):
     """A state as tiles: the module that owns it, and the tiles of that module that it lies in."""
 
     module: int
-    tiles: tuple[int, ...]  # as many for every state of a coding
+    tiles: tuple[int, ...]  # as many for every state of an encoder
 
 
 class Point(NamedTuple):
@@ -30,8 +30,8 @@ class Point(NamedTuple):
     angular_velocity: float  # φ̇ [rad/s]
 
 
-class Coding(Protocol):
-    """A coding outside the loop."""
+class Encoder(Protocol):
+    """An encoder outside the loop."""
 
     def __hash__(self) -> int: ...
 
@@ -51,9 +51,9 @@ class Coding(Protocol):
         """
 
 
-def _locate(coding: Any, angle: float, angular_velocity: float) -> Any:
+def _locate(encoder: Any, angle: float, angular_velocity: float) -> Any:
     """The place of φ [rad] and φ̇ [rad/s]."""
-    raise TypeError(f"{type(coding)} is no coding")
+    raise TypeError(f"{type(encoder)} is no encoder")
 
 
 _locate_by_type = ByType(_locate)
@@ -62,14 +62,14 @@ locate_in = _locate_by_type.register
 
 
 class Plan(NamedTuple):
-    """What a coding is made from."""
+    """What an encoder is made from."""
 
     task: Task
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
 
 
-def create(name: str, plan: Plan) -> Coding:
-    """A coding, by the name of its file in this folder."""
-    coding: Coding = load("codings", name).create(plan)
-    return coding
+def create(name: str, plan: Plan) -> Encoder:
+    """An encoder, by the name of its file in this folder."""
+    encoder: Encoder = load("features", name).create(plan)
+    return encoder

@@ -1,6 +1,6 @@
 """Binary tile coding of (φ, φ̇): every tile of a grid is one index (§3.3, §4.5, §4.6).
 
-Modular learning (§4.6.3) is a coding too: a fixed control structure answers which module owns a
+Modular learning (§4.6.3) is an encoder too: a fixed control structure answers which module owns a
 state, and the tile inside that module.
 """
 

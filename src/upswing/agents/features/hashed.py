@@ -54,5 +54,5 @@ def _locate(hashed: Hashed, angle: float, angular_velocity: float) -> Place:
 
 
 def create(plan: Plan) -> Hashed:
-    """The tiles of coding ``fine``, scattered over ``entries``."""
+    """The tiles of ``fine``, scattered over ``entries``."""
     return Hashed(fine.create(plan), plan.options["entries"])

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.agents.features import Coding
+from upswing.agents.features import Encoder
 from upswing.agents.policy import Q
 from upswing.physics.jit import ByType
 from upswing.study.loading import load
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 def _values(learner: Any, place: Any) -> Q:
-    """Q(s, a) of the three actions, of a state in the coding that the learner was made for."""
+    """Q(s, a) of the three actions, of a state in the encoder that the learner was made for."""
     raise TypeError(f"{type(learner)} is no learner")
 
 
@@ -43,7 +43,7 @@ update_of = _update_by_type.register
 class Beginning(NamedTuple):
     """What a learner is made from."""
 
-    coding: Coding
+    encoder: Encoder
     options: Mapping[str, Any]  # of the architecture, as in the configuration
     readings: Readings
     lowest_q: float  # the smallest discounted return there can be, for a pessimistic first Q
@@ -62,7 +62,7 @@ class Learner(Protocol):
         """What was learned, by name; the names and shapes of the weights file."""
 
     def action_values(self, places: Sequence[Any]) -> Array:
-        """Q of every action at ``places`` of the coding, shape (places, actions)."""
+        """Q of every action at ``places`` of the encoder, shape (places, actions)."""
 
     @property
     def epsilon(self) -> float | None:

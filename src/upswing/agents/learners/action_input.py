@@ -152,9 +152,9 @@ class ActionInputLearner:
 
 def create(beginning: Beginning) -> ActionInputLearner:
     """A network with weights and biases uniform in ± R11, drawn in the order of ``QNetwork``."""
-    coding, readings = beginning.coding, beginning.readings
+    encoder, readings = beginning.encoder, beginning.readings
     (hidden,) = beginning.options["hidden"]
-    network = QNetwork(coding.modules, coding.tiles, hidden, readings.biases)
+    network = QNetwork(encoder.modules, encoder.tiles, hidden, readings.biases)
     scale = float(readings.initial_weights)
     with torch.no_grad():
         for parameter in network.parameters():

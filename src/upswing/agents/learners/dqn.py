@@ -77,7 +77,7 @@ class Options(architecture.Architecture):
     def check(self) -> None:
         """It has an algorithm of its own."""
         if self.method != "q-learning":
-            raise ValueError("a dqn has its own method; leave `method` out")
+            raise ValueError("a dqn has an algorithm of its own; leave `method` out")
 
 
 class QNetwork(nn.Module):
@@ -196,7 +196,7 @@ class DqnLearner:
             return np.asarray((self.network.unit * self.network(states)).numpy())
 
     def advance(
-        self, body: Pendulum, task: Task, _coding: Any, stepped: DeepQ, _method: Any, rule: Rule,
+        self, body: Pendulum, task: Task, _encoder: Any, stepped: DeepQ, _algorithm: Any, rule: Rule,
         state: State, actions: np.random.Generator, starts: np.random.Generator,
         trajectory: Any, first: int, last: int,
     ) -> State:  # fmt: skip

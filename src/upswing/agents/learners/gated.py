@@ -79,7 +79,7 @@ def _update(gated: Gated, place: Place, action: int, error: float) -> None:
 
 
 class TwoModules(NamedTuple):
-    """A coding in which every state may belong to either module."""
+    """An encoder in which every state may belong to either module."""
 
     tiles: int
     modules: int = MODULES
@@ -110,7 +110,7 @@ class GatedLearner:
 def create(beginning: Beginning) -> GatedLearner:
     """Two modules: networks with ``hidden`` layers, or tables where there are none."""
     name = Options.module(beginning.options["hidden"])
-    tiles = beginning.coding.tiles
-    modules = beginning._replace(coding=TwoModules(tiles))  # type: ignore[arg-type]
+    tiles = beginning.encoder.tiles
+    modules = beginning._replace(encoder=TwoModules(tiles))  # type: ignore[arg-type]
     inner = load("learners", name).create(modules)
     return GatedLearner(np.zeros((tiles, MODULES)), inner)

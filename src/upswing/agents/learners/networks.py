@@ -129,10 +129,10 @@ class NetworksLearner:
 
 def create(beginning: Beginning) -> NetworksLearner:
     """Networks with weights and biases uniform in ± R11, drawn in the order of the layers."""
-    coding, readings = beginning.coding, beginning.readings
-    tiled = coding.tiles > 0
-    sizes = (coding.tiles if tiled else INPUTS, *beginning.options["hidden"])
-    networks = QNetworks(coding.modules, sizes, readings.biases)
+    encoder, readings = beginning.encoder, beginning.readings
+    tiled = encoder.tiles > 0
+    sizes = (encoder.tiles if tiled else INPUTS, *beginning.options["hidden"])
+    networks = QNetworks(encoder.modules, sizes, readings.biases)
     scale = float(readings.initial_weights)
     with torch.no_grad():
         for parameter in networks.parameters():

@@ -76,8 +76,8 @@ def create(beginning: Beginning) -> TableLearner:
 
 def first_table(beginning: Beginning) -> Array:
     """The first Q of R5, (modules, tiles, actions): zero, the lowest return, or uniform between."""
-    coding, lowest = beginning.coding, beginning.lowest_q
-    shape = (coding.modules, coding.tiles, ACTIONS)
+    encoder, lowest = beginning.encoder, beginning.lowest_q
+    shape = (encoder.modules, encoder.tiles, ACTIONS)
     match beginning.readings.first_q:
         case "zero":
             return np.zeros(shape)

@@ -44,7 +44,7 @@ class Task(NamedTuple):
 
 
 RANDOM_START_VELOCITY = 2.0
-"""± [rad/s] under R8 `random`: the two velocity tiles around zero, the finest the coding tells apart."""
+"""± [rad/s] under R8 `random`: the two velocity tiles around zero, the finest that the grid has."""
 
 
 def start_velocity(readings: Readings) -> float:
