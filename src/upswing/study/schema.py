@@ -25,8 +25,9 @@ message.
 
 
 OPTIONS_HEAD = """\
-The learner, the feature encoder, the algorithm and the kind of task may have options of their own, which stand
-beside the keys above. They are declared in the file of the part, in a class `Options`.
+The learner, the feature encoder (`coding`), the algorithm (`method`) and the kind of task may have
+options of their own, which stand beside the keys above. They are declared in the file of the part, in a
+class `Options`.
 """
 
 SWEEPS_HEAD = """\
