@@ -21,8 +21,7 @@ LINE = 0.14
 """Height of a label [inch]."""
 
 ANGLES, TIMES = 37, 125
-"""The pendulum's angle_histogram are counted in so many parts of a turn (0° in the middle of one) and
-of a run."""
+"""Numbers of bins of an angle histogram, over a turn (0° in the middle of one) and over a run."""
 
 
 class Drawing(NamedTuple):

@@ -16,7 +16,7 @@ from upswing.study import architecture
 
 TILINGS = 8
 SHIFTS = (1, 3)
-"""By so many eighths of a tile, of φ and of φ̇, the next tiling is shifted: the first odd numbers."""
+"""Number of eighths of a tile, of φ and of φ̇, by which each tiling is shifted from the one before."""
 
 
 class Options(architecture.Architecture):
