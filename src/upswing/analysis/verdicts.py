@@ -121,18 +121,20 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
 
 def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
     """The estimate of a part for some cells."""
-    if part.kind == "share_contracting":
-        return statistics.share(sum(map(contracts, range(PROBLEMS))), PROBLEMS)
     groups = [_among(results.cell(cell), part.among) for cell in cells]
     match part.kind:
+        case "share_contracting":  # of made-up problems, and of no cell
+            return statistics.share(sum(map(contracts, range(PROBLEMS))), PROBLEMS)
         case "share":
             fulfilled = _fulfilled(groups[0], part.where)
             return statistics.share(int(fulfilled.sum()), len(fulfilled))
-        case "difference_of_shares" | "range_of_shares":
-            shares = [list(_fulfilled(group, part.where)) for group in groups]
-            if part.kind == "range_of_shares":
-                return statistics.range_of_shares(shares)
-            return statistics.difference_of_shares(shares[0], shares[1])
+        case "difference_of_shares":
+            one, other = (list(_fulfilled(group, part.where)) for group in groups)
+            return statistics.difference_of_shares(one, other)
+        case "range_of_shares":
+            return statistics.range_of_shares(
+                [list(_fulfilled(group, part.where)) for group in groups]
+            )
         case "share_identical":
             digests = _paired(groups, "digest")
             return statistics.share(int((digests[0] == digests[1]).sum()), len(digests[0]))

@@ -7,9 +7,9 @@ import numpy as np
 from upswing.optimal.follow import from_starts
 from upswing.optimal.rows import Row, of_starts, with_exploring
 from upswing.optimal.solved import Solved
-from upswing.optimal.tables import FULL_CONTROL
 from upswing.optimal.tile_policy import Actions, TilePolicy, score, thesis_tiles
 from upswing.optimal.tile_search import Found, learned, projected, search
+from upswing.study.task import kind_of_task
 
 BUDGET = 600
 """Number of changes that a search tries of each of the policies it begins with …"""
@@ -40,7 +40,7 @@ def of_tiles(solved: Solved) -> Iterator[Row]:
         found = best_of(solved, kind, starts)
         note = "found by search: a lower bound of what the tiles allow"
         yield Row("tile_score", found.score[0], "", GRID, kind, "tiles", note=note)
-        if kind == FULL_CONTROL:
+        if kind_of_task(kind).judged_by == "upright":
             policy = TilePolicy(thesis_tiles(kind), found.actions)
             yield from of_starts(GRID, "tiles", None, from_starts(policy, body))
             yield from with_exploring(body, policy, GRID, "tiles")

@@ -49,8 +49,8 @@ def write_comparison(results: Results, claims: Mapping[str, Claim], name: str) -
         raise BadInput([f"comparison: {name}: no such comparison; {near(name, known)}"])
     rr.set_strict_mode(True)
     path = results.folder / comparison(name)
-    kind, _, of = name.partition("-")
-    if kind == "task":
+    what, _, of = name.partition("-")
+    if what == "task":
         write_task(path, results, of)
     else:
         write_claim(path, results, of, str(claims[of].cell))

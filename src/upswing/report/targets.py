@@ -199,8 +199,8 @@ class Targets:
 
     def cells_of_comparison(self, name: str) -> list[str]:
         """The cells of a task, or that of a claim, by the name of their recording."""
-        kind, _, of = name.partition("-")
-        if kind == "claim":
+        what, _, of = name.partition("-")
+        if what == "claim":
             return [str(self.claims[of].cell)]
         return [cell for cell, spec in self.matrix.cells.items() if spec.task.name == of]
 

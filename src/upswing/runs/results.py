@@ -24,6 +24,9 @@ from upswing.study.task import NamedTask
 
 Real = NDArray[np.float64]
 
+TRAJECTORY, WINDOWS = "trajectory.parquet", "windows.parquet"
+COLUMNS_OF = {TRAJECTORY: OF_A_TRAJECTORY, WINDOWS: OF_WINDOWS}
+
 
 class OneRun(NamedTuple):
     """A single run of a cell."""
@@ -149,17 +152,17 @@ class Results:
             self.task(cell),
             int(row["seed"]),
             self.trajectory(row["run"]),
-            self._read(row["run"], "windows"),
+            self._read(row["run"], WINDOWS),
         )
 
     def trajectory(self, run: str) -> pd.DataFrame:
         """The stored steps of a run."""
-        return self._read(run, "trajectory")
+        return self._read(run, TRAJECTORY)
 
     def ensemble(self, cell: str) -> Ensemble:
         """All runs of a cell."""
         rows = self.cell(cell)
-        windows = [self._read(run, "windows") for run in rows["run"]]
+        windows = [self._read(run, WINDOWS) for run in rows["run"]]
         return Ensemble(
             task=self.task(cell),
             seeds=[int(seed) for seed in rows["seed"]],
@@ -168,10 +171,9 @@ class Results:
             upright_share=np.stack([frame["upright_share"].to_numpy(float) for frame in windows]),
         )
 
-    def _read(self, run: str, kind: str) -> pd.DataFrame:
-        path = self.folder / file_of(run, f"{kind}.parquet")
-        columns = OF_A_TRAJECTORY if kind == "trajectory" else OF_WINDOWS
-        return read_table(path, columns, "run the study again to make it")
+    def _read(self, run: str, file: str) -> pd.DataFrame:
+        path = self.folder / file_of(run, file)
+        return read_table(path, COLUMNS_OF[file], "run the study again to make it")
 
 
 class OwnRuns(Results):

@@ -81,6 +81,7 @@ WITHIN: dict[str, tuple[float, float]] = {
 }
 """Between which values an estimate of each kind lies, where it is not any number."""
 
+WITH_LIMIT = ("share_by",)
 WITHOUT_MEASURE = (*OF_SHARES, "share_identical", "share_contracting")
 
 
@@ -172,7 +173,7 @@ class Part(Strict):
             raise ValueError(f"`measure` does not go with {self.kind}, or is missing")
         if bool(self.where) != (self.kind in OF_SHARES):
             raise ValueError(f"`where` goes with {', '.join(OF_SHARES)}, always")
-        if (self.limit is not None) != (self.kind == "share_by"):
+        if (self.limit is not None) != (self.kind in WITH_LIMIT):
             raise ValueError("`limit` goes with share_by, always")
         return self
 

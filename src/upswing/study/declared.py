@@ -141,14 +141,16 @@ class Family(Generic[S]):
     def _explained(self, error: ValidationError, model: type[Strict]) -> Iterator[InitErrorDetails]:
         """The same problems; of an unknown key it is said whose option it is."""
         for details in error.errors(include_url=False):
-            kind: Any = details["type"]
+            problem: Any = details["type"]
             place = details["loc"]
-            if kind == "extra_forbidden" and len(place) == 1:
+            if problem == "extra_forbidden" and len(place) == 1:
                 of = self.owners(str(place[0]))
                 hint = f"goes with {' or '.join(of)}" if of else near(place[0], model.model_fields)
-                kind = PydanticCustomError("unknown_option", "unknown key: {hint}", {"hint": hint})
+                problem = PydanticCustomError(
+                    "unknown_option", "unknown key: {hint}", {"hint": hint}
+                )
             yield InitErrorDetails(
-                type=kind, loc=place, input=details["input"], ctx=details.get("ctx", {})
+                type=problem, loc=place, input=details["input"], ctx=details.get("ctx", {})
             )
 
 

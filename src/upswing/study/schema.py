@@ -88,8 +88,8 @@ def _values(field: dict[str, Any]) -> str:
             return f"list of {_values(field['items'])}"
         case "object":
             return "mapping, see below"
-        case "integer" | "number" as kind:
-            return ("integer" if kind == "integer" else "number") + _limits(field)
+        case "integer" | "number" as number:
+            return str(number) + _limits(field)
         case "boolean":
             return "`true`, `false`"
         case "null":
