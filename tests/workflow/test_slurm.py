@@ -119,15 +119,15 @@ def test_slurm_makes_the_tables_that_one_machine_makes(slurm, tmp_path):
     local, cluster = (
         Study(tmp_path / name) for name in (folder(tmp_path, "a"), folder(tmp_path, "b"))
     )
-    target = "results/tables/verdicts.parquet"
-    done = local.snakemake("--", target)
+    target, runs = "results/tables/verdicts.parquet", "results/tables/runs.parquet"
+    done = local.snakemake("--", target, runs)
     assert done.returncode == 0, done.stdout + done.stderr
     done = subprocess.run(
         [
             BIN / "snakemake", "--profile", "workflow/profiles/slurm", "--configfile",
             "config/small.yaml", "--slurm-no-account", "--slurm-status-command", "squeue",
             "--slurm-init-seconds-before-status-checks", "3", "--seconds-between-status-checks", "2",
-            "--latency-wait", "5", "--", target,
+            "--latency-wait", "5", "--", target, runs,
         ],
         cwd=cluster.folder, env={
             **os.environ, "PATH": f"{BIN}:{os.environ['PATH']}", "PYTHONPATH": str(BIN.parent / "slurm"),

@@ -18,6 +18,7 @@ if find_spec("upswing") is None:
 
 from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST, VIEWER_PAGE
 from upswing.report.targets import Targets, templates
+from upswing.runs.ending import answer_in_a_thread
 from upswing.runs.records import restore, taken_as_they_are
 from upswing.runs.study_file import canonical
 from upswing.study import jobs
@@ -35,6 +36,8 @@ if not workflow.configfiles:
 # The command `upswing` beside this snakemake, whether or not its folder is on the path; text is UTF-8.
 BESIDE = shlex.quote(os.path.dirname(sys.executable))
 shell.prefix(f"export PATH={BESIDE}:$PATH PYTHONUTF8=1; ")
+
+answer_in_a_thread()
 
 try:
     STUDY, CLAIMS, SWEEPS = asked(
