@@ -67,7 +67,7 @@ def test_where_the_future_does_not_count_all_methods_agree():
     assert np.count_nonzero(runs[0] != runs[1]) <= 1
 
 
-@pytest.mark.parametrize("method", ["sarsa", "q-lambda", "monte-carlo"])
+@pytest.mark.parametrize("algorithm", ["sarsa", "q-lambda", "monte-carlo"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_run_in_pieces_is_the_run_in_one(kind, algorithm):
     options = {"trace": 0.9} if algorithm == "q-lambda" else {}
@@ -77,7 +77,7 @@ def test_a_run_in_pieces_is_the_run_in_one(kind, algorithm):
     np.testing.assert_array_equal(learned["q"], again["q"])
 
 
-@pytest.mark.parametrize("method", ["sarsa", "monte-carlo"])
+@pytest.mark.parametrize("algorithm", ["sarsa", "monte-carlo"])
 def test_an_error_is_recorded_at_the_step_it_belongs_to(algorithm):
     spec = beyond_spec("full-control", alpha=0.5, method=algorithm, steps=300, epsilon=1.0)
     trajectory, _ = run(spec)

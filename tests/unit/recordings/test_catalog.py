@@ -5,7 +5,7 @@ import re
 import pytest
 
 from tests.unit.recordings.pages import LONG, opened, shows_something
-from tests.unit.runs.test_recording import browsing
+from tests.unit.recordings.test_browsing import browsing
 
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
 
