@@ -2,6 +2,7 @@
 
 from copy import deepcopy
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -85,3 +86,20 @@ def assert_same(one: Trajectory, other: Trajectory) -> None:
     """Every column of both is the same, NaN being NaN."""
     for name, a, b in zip(one._fields, one, other, strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
+
+
+def columns_of_recording(path: Path) -> dict[str, list[str]]:
+    """All data of a Rerun recording by entity and column, in an order of its own, without times of writing."""
+    import rerun as rr
+
+    reader = rr.chunk.RrdReader(path)
+    (store,) = reader.recordings()
+    found: dict[str, list[str]] = {}
+    for chunk in reader.stream(store=store):
+        entity = str(chunk.entity_path)
+        if not entity.startswith("/__properties"):
+            batch = chunk.to_record_batch()
+            for name in batch.schema.names:
+                if "rowid" not in name.lower() and "log_t" not in name:
+                    found.setdefault(f"{entity} {name}", []).append(str(batch[name].to_pylist()))
+    return {name: sorted(rows) for name, rows in found.items()}

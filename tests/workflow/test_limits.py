@@ -160,7 +160,7 @@ def test_as_many_runs_as_are_allowed_are_planned_within_a_minute(tmp_path, size)
 def test_of_every_job_the_first_missing_file_is_wanted(tmp_path):
     matrix = Matrix(validated({"small": {**SMALL, "seeds": 4}}))
     asked = list(matrix.wanted(tmp_path))
-    assert len(asked) == len(matrix.cells) * len(matrix.blocks) == len(list(matrix.first_runs))
+    assert len(asked) == len(matrix.cells) * len(matrix.blocks)
     for run in matrix.runs:
         for kind in RUN_FILES:
             (tmp_path / f"runs/{run}.{kind}").parent.mkdir(parents=True, exist_ok=True)

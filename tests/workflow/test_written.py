@@ -172,7 +172,3 @@ def test_little_memory_is_one_line(tmp_path):
     )
     assert "Traceback" not in done.stderr
     assert done.returncode == 0 or len(done.stderr.strip().splitlines()) == 1, done.stderr
-
-
-RULES = [*(ROOT / "workflow/rules").glob("*.smk"), ROOT / "Snakefile"]
-SHELL = re.compile(r'shell:\s+((?:"[^\n]*"\s*)+)')

@@ -25,7 +25,7 @@ from upswing.study import jobs
 from upswing.study.check import asked
 from upswing.study.claims import canonical_claims
 from upswing.study.errors import BadInput
-from upswing.study.ids import KNOWN_FILE, file_of
+from upswing.study.ids import KNOWN_FILE
 from upswing.study.matrix import canonical_search
 
 if not workflow.configfiles:

@@ -20,6 +20,7 @@ rule figure:
     benchmark:
         f"{RESULTS}/benchmarks/figure/{{figure}}.tsv"
     params:
+        cells=lambda wildcards: FILES.cells_of_figure(wildcards.figure),
         code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
         "upswing figure {wildcards.figure:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

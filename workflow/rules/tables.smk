@@ -19,8 +19,7 @@ rule study:
 rule tables:
     input:
         f"{RESULTS}/study.json",
-        # A file of every job stands for all of it (as in figures.smk).
-        [f"{RESULTS}/{file_of(run, 'windows.parquet')}" for run in MATRIX.first_runs],
+        FILES.of_cells(MATRIX.cells),
     output:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/cells.parquet",

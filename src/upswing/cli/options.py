@@ -46,11 +46,11 @@ SWEEPS = Path("config/readings.yaml")
 TEMPLATES = Path("report")
 
 
-def asked_study(text: str, results: Path) -> "Study":
-    """The study that was asked for, or the one that the folder is of."""
-    from upswing.runs.study_file import parse_study, read_study
+def asked_study(text: str) -> "Study | None":
+    """The study that was asked for; None for the one that the folder is of."""
+    from upswing.runs.study_file import parse_study
 
-    return parse_study(text, "study") if text else read_study(results)
+    return parse_study(text, "study") if text else None
 
 
 def results_folder(named: Path | None, positional: Path | None = None) -> Path:

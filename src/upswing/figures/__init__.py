@@ -7,7 +7,7 @@ other is drawn where a study names it under ``figures``.
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
 from upswing.runs.files.atomic import written
@@ -15,6 +15,9 @@ from upswing.runs.files.ledger import seal
 from upswing.study.errors import BadInput, near
 from upswing.study.loading import load, parts, source_of
 from upswing.study.paths import FIGURES as FIGURES_FOLDER
+
+if TYPE_CHECKING:
+    from upswing.runs.results import Results
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -73,13 +76,12 @@ def drawable(cells: Iterable[str], changes: bool = False, asked: Iterable[str] =
     ]
 
 
-def draw(name: str, results: Path, study: str = "") -> None:
+def draw(name: str, results: "Results") -> None:
     """Draw a figure: ``figures/NAME.svg``, ``.png`` and its words in ``.json``.
 
     Args:
         name: the figure's name, or its number in the thesis.
-        results: the folder of results.
-        study: the study that is asked for, in JSON; without, the one that the folder is of.
+        results: the folder of results, read for drawing.
 
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
@@ -89,16 +91,12 @@ def draw(name: str, results: Path, study: str = "") -> None:
         raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
     from upswing.figures.panels import Drawing
     from upswing.figures.style import save
-    from upswing.runs.results import OwnRuns
-    from upswing.runs.study_file import parse_study
 
     declared = FIGURES[name]
-    drawing = load("figures", name).draw(
-        OwnRuns(results, parse_study(study, "study") if study else None)
-    )
+    drawing = load("figures", name).draw(results)
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
-    place = results / FIGURES_FOLDER / name
+    place = results.folder / FIGURES_FOLDER / name
     save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:
         words = {
@@ -110,6 +108,6 @@ def draw(name: str, results: Path, study: str = "") -> None:
         }
         beside.write_text(json.dumps(words, indent=1, ensure_ascii=False) + "\n", "utf-8")
     seal(
-        results, f"figures/{name}",
+        results.folder, f"figures/{name}",
         [place.with_suffix(ending) for ending in (".svg", ".png", ".json")],
     )  # fmt: skip

@@ -183,9 +183,12 @@ class Targets:
 
     def of_figure(self, name: str) -> list[str]:
         """What a figure is drawn from: its own cells, or whatever the study has."""
-        declared = FIGURES[name]
-        runs = self.of_cells(declared.cells or self.matrix.cells)
-        return [*runs, *self._below(*declared.tables)]
+        runs = self.of_cells(self.cells_of_figure(name))
+        return [*runs, *self._below(*FIGURES[name].tables)]
+
+    def cells_of_figure(self, name: str) -> list[str]:
+        """Its own cells, or all cells in the order of the study."""
+        return list(FIGURES[name].cells or self.matrix.cells)
 
     @cached_property
     def judged_cells(self) -> list[str]:

@@ -77,8 +77,8 @@ def taken_as_they_are(results: str, unknown: Sequence[str]) -> str:
 
 def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iterator[str]:
     """Mend the records of a job of training; yields the files of which nothing is known."""
-    asked, single = job.canonical(), job.of_seed(0).canonical()
-    for seed in job.seeds:
+    asked = job.canonical()
+    for seed, text in job.canonical_runs():
         run = job.run(seed)
         path = f"{results}/{file_of(run, KNOWN_FILE)}"
         if not Path(path).exists():
@@ -90,7 +90,7 @@ def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iter
         if known == [repr(INCOMPLETE)]:  # what was missing has come back
             known = None
         made = _made_from(Path(results), run)
-        if made is not None and made[0] == single.replace('"seeds":[0]', f'"seeds":[{seed}]'):
+        if made is not None and made[0] == text:
             made = asked, made[1]  # as the whole job is asked for
         if made is None:
             if known is None:

@@ -21,14 +21,13 @@ def collected(results: Path, cells: Iterable[Spec]) -> pd.DataFrame:
     """
     rows, problems = [], []
     for cell in cells:
-        whole = cell.of_seed(0).canonical()
-        for seed in cell.seeds:
+        for seed, text in cell.canonical_runs():
             path = results / file_of(cell.run(seed), "windows.parquet")
             try:
                 if not path.exists():
                     raise BadInput([f"{path}: missing; run the study again to make it"])
                 found = read_metadata(path)
-                if found["spec"] != whole.replace('"seeds":[0]', f'"seeds":[{seed}]'):
+                if found["spec"] != text:
                     raise BadInput([f"{path}: is of another specification: {found['spec']}"])
                 rows.append(row_of(cell, seed, found))
             except BadInput as error:

@@ -55,13 +55,6 @@ class Matrix:
             for seed in spec.seeds:
                 yield spec.run(seed)
 
-    @property
-    def first_runs(self) -> Iterator[str]:
-        """The id of the first run of every job; it stands for all, which are written together."""
-        for spec in self.cells.values():
-            for block in self.blocks:
-                yield spec.run(block.seeds[0])
-
     def wanted(self, results: Path) -> Iterator[str]:
         """A file of every job, below ``results``: the first that is missing there, or else its first.
 

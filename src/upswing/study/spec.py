@@ -3,6 +3,7 @@
 import json
 import shlex
 from collections import Counter
+from collections.abc import Iterator
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationError
@@ -62,6 +63,12 @@ class Spec(Strict):
             self.architecture.learner, self.task.kind, self.architecture.is_modular
         )
         return json.dumps(_shortest(content), sort_keys=True, separators=(",", ":"))
+
+    def canonical_runs(self) -> Iterator[tuple[int, str]]:
+        """Each seed, and the canonical text of its run alone."""
+        text = self.of_seed(0).canonical()
+        for seed in self.seeds:
+            yield seed, text.replace('"seeds":[0]', f'"seeds":[{seed}]')
 
     def command(self, results: str) -> str:
         """The command that repeats the job by hand."""

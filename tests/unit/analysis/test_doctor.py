@@ -13,6 +13,7 @@ from upswing.cli.main import main
 from upswing.figures import draw
 from upswing.report.page import write_report
 from upswing.runs.files.ledger import ledger_path, ledgers, read_ledger, seal
+from upswing.runs.results import Results
 from upswing.study.errors import BadInput
 from upswing.study.ids import RUN_FILES
 
@@ -140,7 +141,7 @@ def test_every_flipped_bit_of_the_study_is_named(folder):
 
 
 def test_pictures_and_page_have_checksums_too(folder):
-    draw("overview", folder)
+    draw("overview", Results(folder))
     write_report(folder, Path("report"))
     assert examine(folder).findings == []
     pictures = [folder / f"figures/overview.{kind}" for kind in ("svg", "png", "json")]

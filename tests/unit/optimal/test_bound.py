@@ -44,13 +44,6 @@ def stepped(angle, velocity, action):
     return (angle + np.pi) % (2 * np.pi) - np.pi, velocity
 
 
-def turned(angle):
-    """Within one turn, to the last bit: a whole turn less or more where it has to be."""
-    if angle >= np.pi:
-        return angle - 2 * np.pi
-    return angle + 2 * np.pi if angle < -np.pi else angle
-
-
 def by_scipy(grid, values, angle, velocity):
     """Linear interpolation with the first row once more behind the last."""
     angles = np.linspace(-np.pi, np.pi, grid.rows + 1)

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import psutil
 import pytest
-import rerun as rr
 from PIL import Image
 
+from tests.helpers import columns_of_recording
 from upswing.cli.main import main
 from upswing.recordings.catalog import catalog
 from upswing.recordings.comparison import write_comparisons
@@ -27,31 +27,17 @@ from upswing.study.errors import BadInput
 from upswing.study.task import task_named
 
 
-def _columns(path):
-    reader = rr.chunk.RrdReader(path)
-    (store,) = reader.recordings()
-    found = {}
-    for chunk in reader.stream(store=store):
-        entity = str(chunk.entity_path)
-        if not entity.startswith("/__properties"):
-            batch = chunk.to_record_batch()
-            for name in batch.schema.names:
-                if "rowid" not in name.lower() and "log_t" not in name:
-                    found.setdefault(f"{entity} {name}", []).append(str(batch[name].to_pylist()))
-    return {name: sorted(rows) for name, rows in found.items()}
-
-
 def test_comparisons_hold_every_run_of_a_task_and_three_of_a_claim(results):
     claims = load_claims(Path("config/claims.yaml"))
     paths = {path.stem: path for path in write_comparisons(results, claims)}
     assert sorted(paths) == sorted(comparison_names(claims, results.cells))
     assert {"task-balancing", "task-full-control", "claim-C1", "claim-C13"} <= set(paths)
-    task = _columns(paths["task-balancing"])
+    task = columns_of_recording(paths["task-balancing"])
     for cell in ("table/alpha-1", "table/alpha-0.1", "idle/alpha-none"):
         place = f"/cells/{cell}".replace(".", r"\.")
         names = [name for name in task if name.startswith((f"/cells/{cell}/runs", f"{place}/runs"))]
         assert names, (cell, sorted(task))
-    claim = _columns(paths["claim-C13"])
+    claim = columns_of_recording(paths["claim-C13"])
     assert {name.split("/")[1] for name in claim if "pendulum/rod" in name} == {
         "worst",
         "median",

@@ -1,5 +1,6 @@
 """The viewer beside the report: recordings open from plain files, and nothing else is loaded."""
 
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -11,9 +12,10 @@ from upswing.recordings.content_policy import source_of
 from upswing.recordings.program import RERUN
 from upswing.recordings.singly import chosen_runs, script_of_layout, script_of_run
 from upswing.recordings.viewer import write_viewer
+from upswing.study import jobs
 from upswing.study.claims import load_claims
 from upswing.study.ids import recording_id
-from upswing.study.paths import VIEWER
+from upswing.study.paths import VIEWER, comparison
 
 CLAIMS = load_claims(Path("config/claims.yaml"))
 RUN = "full-control/modular-networks-5/alpha-1/seed-0"
@@ -53,6 +55,27 @@ def test_chosen_recordings_stand_beside_the_report(results, names):
         for path, content in written.items()
         if path.parent.name != "layouts"
     )
+
+
+def test_a_script_is_made_anew_of_another_recording_and_by_other_code(results, names, monkeypatch):
+    folder = results.folder / VIEWER / "recordings"
+
+    def written_anew():
+        for path in folder.iterdir():
+            os.utime(path, (0, 0))
+        write_viewer(results, CLAIMS, Path("report"))
+        return {path.stem for path in folder.iterdir() if path.stat().st_mtime > 0}
+
+    assert written_anew() == set()
+    source = results.folder / comparison("claim-C1")
+    content = source.read_bytes()
+    source.write_bytes(content + b"other")
+    os.utime(source, (0, 0))  # however old it says it is
+    assert written_anew() == {"claim-C1"}
+    source.write_bytes(content)
+    assert written_anew() == {"claim-C1"}
+    monkeypatch.setattr(jobs, "VIEWER", jobs.TABLES)
+    assert written_anew() == set(names)
 
 
 def test_the_viewers_page_allows_what_it_brings_and_nothing_else(results, names):

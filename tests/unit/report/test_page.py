@@ -25,7 +25,7 @@ from upswing.study.paths import CELLS, PAGE, RUNS, VERDICTS
 def address(results):
     """The page of a small study, with everything beside it that it links."""
     for name in drawable(results.cells):
-        draw(name, results.folder)
+        draw(name, results)
     claims = load_claims(Path("config/claims.yaml"))
     write_comparisons(results, claims)
     write_viewer(results, claims, Path("report"))

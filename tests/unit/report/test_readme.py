@@ -107,7 +107,7 @@ def test_the_animation_is_that_of_the_study_where_it_was_run():
 
 def test_everything_is_renewed_from_results(results, tmp_path):
     for name in FIGURES:
-        draw(name, results.folder)
+        draw(name, results)
     for name in ("report", "docs"):
         shutil.copytree(ROOT / name, tmp_path / name)
     shutil.copy(ROOT / README, tmp_path)

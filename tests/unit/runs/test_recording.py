@@ -5,9 +5,8 @@ import sys
 
 import numpy as np
 import pytest
-import rerun as rr
 
-from tests.helpers import make_spec, run
+from tests.helpers import columns_of_recording, make_spec, run
 from upswing.agents.features import locate
 from upswing.physics.environment import empty_trajectory
 from upswing.recordings.program import RERUN
@@ -73,8 +72,12 @@ def test_identical_runs_have_equal_recordings(results, tmp_path):
         folder / "runs" / f"{spec.run(1)}.rrd" for folder in (tmp_path, tmp_path / "again")
     )
     # How long a run took stands in its properties and words, and differs.
-    ours = {chunk: rows for chunk, rows in _columns(one).items() if "about" not in chunk}
-    assert ours == {chunk: rows for chunk, rows in _columns(again).items() if "about" not in chunk}
+    ours = {
+        chunk: rows for chunk, rows in columns_of_recording(one).items() if "about" not in chunk
+    }
+    assert ours == {
+        chunk: rows for chunk, rows in columns_of_recording(again).items() if "about" not in chunk
+    }
     assert (
         subprocess.run([RERUN, "rrd", "verify", one], check=False, capture_output=True).returncode
         == 0
@@ -84,7 +87,7 @@ def test_identical_runs_have_equal_recordings(results, tmp_path):
 FULL = """
 import resource, signal, sys
 from pathlib import Path
-from tests.helpers import make_spec
+from tests.helpers import columns_of_recording, make_spec
 from upswing.runs.train import RunsFailed, train
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), -1))
@@ -114,17 +117,3 @@ def test_a_disk_that_fills_while_a_recording_is_written_is_said_and_leaves_no_ha
     assert "Traceback" not in done.stderr
     assert "prematurely" not in done.stdout + done.stderr
     assert [path for path in (tmp_path / "full").rglob("*") if path.is_file()] == []
-
-
-def _columns(path):
-    reader = rr.chunk.RrdReader(path)
-    (store,) = reader.recordings()
-    found = {}
-    for chunk in reader.stream(store=store):
-        entity = str(chunk.entity_path)
-        if not entity.startswith("/__properties"):
-            batch = chunk.to_record_batch()
-            for name in batch.schema.names:
-                if "rowid" not in name.lower() and "log_t" not in name:
-                    found.setdefault(f"{entity} {name}", []).append(str(batch[name].to_pylist()))
-    return {name: sorted(rows) for name, rows in found.items()}

@@ -13,10 +13,10 @@ from tests.paths import ROOT
 from upswing.study.config import from_snakemake, load, validated
 from upswing.study.errors import BadInput
 from upswing.study.json_schema import schema
+from upswing.study.key_reference import reference
 from upswing.study.matrix import Matrix
 from upswing.study.names import alpha_text
 from upswing.study.readings import Readings
-from upswing.study.schema import reference
 from upswing.study.spec import parse
 from upswing.study.yaml_file import read_yaml
 

@@ -35,9 +35,8 @@ def verdicts(
     from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
-    of = asked_study(study, folder)
-    found = OwnRuns(folder, of)
-    print_verdicts(write_verdicts(found, load_claims(claims, of)), details)
+    found = OwnRuns(folder, asked_study(study))
+    print_verdicts(write_verdicts(found, load_claims(claims, found.study)), details)
 
 
 def _figures() -> list[str]:
@@ -70,8 +69,9 @@ def figure(
 ) -> None:
     """Draw a figure from the results, as SVG and PNG."""
     from upswing.figures import draw
+    from upswing.runs.results import OwnRuns
 
-    draw(name, results_folder(results, positional), study)
+    draw(name, OwnRuns(results_folder(results, positional), asked_study(study)))
 
 
 @panel.subcommand(

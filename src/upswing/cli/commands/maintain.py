@@ -77,6 +77,6 @@ def schema() -> None:
 @panel.subcommand("keys")
 def keys() -> None:
     """Print what every key of a configuration means, in Markdown."""
-    from upswing.study.schema import reference
+    from upswing.study.key_reference import reference
 
     print(reference(), end="")

@@ -74,7 +74,7 @@ def comparison(
     from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
-    found = OwnRuns(folder, asked_study(study, folder))
+    found = OwnRuns(folder, asked_study(study))
     print(write_comparison(found, load_claims(claims), name))
 
 
@@ -106,7 +106,7 @@ def viewer(
     from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
-    found = OwnRuns(folder, asked_study(study, folder))
+    found = OwnRuns(folder, asked_study(study))
     for name in write_viewer(found, load_claims(claims), templates):
         print(name)
 
@@ -158,12 +158,13 @@ def sweep(
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Run cells of the study under a group of other readings and keep the measures."""
+    from upswing.runs.study_file import read_study
     from upswing.runs.sweep import write_group
     from upswing.study.errors import BadInput, near
     from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
-    asked = asked_study(study, folder)
+    asked = asked_study(study) or read_study(folder)
     known = load_sweeps(sweeps, asked)
     if name not in known:
         raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
