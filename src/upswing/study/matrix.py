@@ -22,7 +22,7 @@ class Block:
 
     @property
     def name(self) -> str:
-        """The block by its seeds: ``seeds_0_to_14``."""
+        """The block by its seeds: ``seeds_0_to_29``."""
         return f"seeds_{self.seeds[0]}_to_{self.seeds[-1]}"
 
 
