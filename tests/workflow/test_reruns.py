@@ -115,7 +115,7 @@ def with_experiments(first_alphas):
         (changed(readings={"reset": "terminal"}), {TRAIN: 2, "study": 1, **OF_BALANCING}),
         (changed(epsilon=0.02), {TRAIN: CELLS, "study": 1, **FOLLOWS}),
         # The same cells in another order: what shows whatever there is shows them in that order.
-        (changed(experiments=SMALL["experiments"][::-1]), {"study": 1, "tables": 1, "figure": 3, "viewer": 1, "report": 1}),
+        (changed(experiments=SMALL["experiments"][::-1]), {"study": 1, "tables": 1, "figure": 3, "comparison": 1, "viewer": 1, "report": 1}),
         # Two values swapped: a set of both is the same, a specification is not.
         (changed(epsilon=0.7, discount=0.01), {TRAIN: CELLS, "study": 1, **FOLLOWS}),
         (changed(tasks={name: {**task, "steps": 7_000} if name == "balancing" else task for name, task in SMALL["tasks"].items()}), {TRAIN: 2, "study": 1, **OF_BALANCING}),

@@ -14,8 +14,8 @@ from tests.leftovers import MARK, born_with
 from upswing.recordings.processes import finished, running
 
 SLEEP = [sys.executable, "-c", "import time; time.sleep(300)"]
-SHELL = ["sh", "-c", "sleep 301 & sleep 302"]
-"""A program that starts another."""
+SHELL = ["sh", "-c", "sleep 301 & exec sleep 302"]
+"""A program that starts one other, and so is all there when that is."""
 
 
 def family(pid):
