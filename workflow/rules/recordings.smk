@@ -10,6 +10,7 @@ rule comparison:
         f"{RESULTS}/logs/comparison/{{comparison}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/comparison/{{comparison}}.tsv"
+    priority: 1
     params:
         cells=lambda wildcards: FILES.cells_of_comparison(wildcards.comparison),
         code=jobs.COMPARISON.fingerprint,

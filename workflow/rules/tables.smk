@@ -1,6 +1,10 @@
 # From runs to tables.
 
 
+# The longest way to the page leads over the study, the tables and the recordings that compare runs: they come
+# first, and figures fill the other cores.
+
+
 rule study:
     input:
         no_file,
@@ -10,6 +14,7 @@ rule study:
         f"{RESULTS}/logs/study.log",
     benchmark:
         f"{RESULTS}/benchmarks/study.tsv"
+    priority: 3
     params:
         study=lambda wildcards: STUDY_TEXT,
     shell:
@@ -27,6 +32,7 @@ rule tables:
         f"{RESULTS}/logs/tables.log",
     benchmark:
         f"{RESULTS}/benchmarks/tables.tsv"
+    priority: 2
     params:
         code=jobs.TABLES.fingerprint,
     shell:
