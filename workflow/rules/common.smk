@@ -68,6 +68,7 @@ wildcard_constraints:
     alpha="[0-9.]+|none",
     figure="[a-z0-9-]+",
     comparison="(task|claim)-[A-Za-z0-9-]+",
+    number="[0-9]+",
 
 
 @cache

@@ -3,8 +3,10 @@
 
 rule sweep:
     # The study is given in the command and is no input (as in beyond.smk): a new seed or cell changes no sweep.
+    # A job of a later round reads which readings go on.
     input:
-        no_file,
+        lambda wildcards: no_file(wildcards)
+        + FILES.before_sweep(f"{wildcards.sweep}/{wildcards.group}"),
     output:
         f"{RESULTS}/readings/{{sweep}}/{{group}}.parquet",
     log:
@@ -18,6 +20,23 @@ rule sweep:
         code=lambda wildcards: jobs.sweep(SWEEPS[wildcards.sweep], STUDY).fingerprint,
     shell:
         "upswing sweep {wildcards.sweep:q} {wildcards.group:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+
+
+rule finalists:
+    # Which readings go on to a round of a sweep.
+    input:
+        lambda wildcards: FILES.before_round(wildcards.sweep, int(wildcards.number)),
+    output:
+        f"{RESULTS}/readings/{{sweep}}/round-{{number}}.json",
+    log:
+        f"{RESULTS}/logs/finalists/{{sweep}}/round-{{number}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/finalists/{{sweep}}/round-{{number}}.tsv"
+    params:
+        reports=lambda wildcards: FILES.reports_of_sweep(wildcards.sweep),
+        code=jobs.FINALISTS.fingerprint,
+    shell:
+        "upswing finalists {wildcards.sweep:q} {wildcards.number:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
 
 
 rule readings:

@@ -48,7 +48,7 @@ def changes(results: Results) -> pd.DataFrame:
 
 
 def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any]:
-    runs, task, horizon = results.cell(spec.cell), spec.task, float(spec.task.steps)
+    runs, task, horizon = results.counted(spec.cell), spec.task, float(spec.task.steps)
     success = succeeds(runs, task)
     rate = statistics.share(int(success.sum()), len(success))
     upright = statistics.mean(runs["upright_share"].to_numpy(float))

@@ -28,7 +28,7 @@ def write_tables(results: Path, matrix: Matrix) -> None:
 
 
 def summarise(runs: pd.DataFrame) -> pd.DataFrame:
-    """One row for each cell of ``runs``, in their order.
+    """One row for each cell of ``runs``, in their order; runs that diverged are counted apart.
 
     Of every measure mean, median and interquartile mean, each with its 95 % interval (``_low``,
     ``_high``): how sure the estimate is; and the 5th and 95th percentile of the runs (``_p05``,
@@ -36,19 +36,22 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
     being censored.
     """
     rows = []
-    for (task, architecture, alpha), group in runs.groupby(
+    for (task, architecture, alpha), every in runs.groupby(
         ["task", "architecture", "alpha"], sort=False, dropna=False
     ):
+        group = every[every["diverged_at"].isna()]
         row: dict[str, Any] = {
-            "cell": cell_of(group["run"].iloc[0]),
+            "cell": cell_of(every["run"].iloc[0]),
             "task": task,
             "architecture": architecture,
             "alpha": alpha,
-            "steps": group["steps"].iloc[0],
+            "steps": every["steps"].iloc[0],
             "runs": len(group),
+            "runs_diverged": len(every) - len(group),
             "runs_stable": int(group["first_stable_step"].notna().sum()),
             "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
             "runs_upright": int((group["upright_share"] >= SUCCESS).sum()),
+            "runs_upright_at_end": int((group["upright_at_end"] >= SUCCESS).sum()),
         }
         times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
         middle = survival.median_time(times, float(row["steps"]))
@@ -63,6 +66,6 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
             row[f"{measure}_p05"], row[f"{measure}_p95"] = statistics.spread(
                 group[measure].to_numpy()
             )
-        row["steps_per_second_median"] = group["steps_per_second"].median()
+        row["steps_per_second_median"] = every["steps_per_second"].median()
         rows.append(row)
     return pd.DataFrame(rows)

@@ -121,7 +121,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
 
 def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
     """The estimate of a part for some cells."""
-    groups = [_among(results.cell(cell), part.among) for cell in cells]
+    groups = [_among(results.counted(cell), part.among) for cell in cells]
     match part.kind:
         case "share_contracting":  # of made-up problems, and of no cell
             return statistics.share(sum(map(contracts, range(PROBLEMS))), PROBLEMS)
@@ -247,7 +247,7 @@ def _own_values(results: Results, part: Part, cells: tuple[str, ...]) -> NDArray
     measure = part.measure or next(iter(part.where), None)
     if not cells or measure is None:
         return np.empty(0)
-    return _column(_among(results.cell(cells[0]), part.among), measure).dropna().to_numpy()
+    return _column(_among(results.counted(cells[0]), part.among), measure).dropna().to_numpy()
 
 
 def _measure(part: Part) -> str:

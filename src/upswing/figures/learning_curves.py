@@ -55,6 +55,9 @@ def draw(results: "Results") -> "Drawing":
                     sizes = np.diff(begins, append=len(ensemble.last_step))
                     values = 100 * np.add.reduceat(ensemble.upright_share, begins, axis=1) / sizes
                 last = ensemble.last_step[np.append(begins[1:], len(ensemble.last_step)) - 1]
+                values = values[~ensemble.diverged]
+                if not len(values):
+                    continue
                 low, middle, high = np.quantile(values, (0.25, 0.5, 0.75), axis=0)
                 shade = colour(cell)
                 panel.plot(last, middle, color=shade, linewidth=1.4)

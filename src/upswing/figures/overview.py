@@ -35,7 +35,7 @@ def draw(results: "Results") -> "Drawing":
     for (task, cells), (left, right) in zip(tasks.items(), grid, strict=True):
         by_falls = results.task(cells[0]).judged_by == "falls"
         for row, cell in enumerate(cells):
-            runs = results.cell(cell)
+            runs, lost = results.counted(cell), int(results.cell(cell)["diverged_at"].notna().sum())
             shade = colour(cell)
             values = runs["falls_last_fifth"] if by_falls else 100 * runs["upright_share"]
             # Seeds lie a little apart, in their order.
@@ -44,10 +44,10 @@ def draw(results: "Results") -> "Drawing":
             found = share(results, cell)
             right.hlines(row, found.low, found.high, color=shade, linewidth=2.5, alpha=0.45)
             right.plot(found.value, row, "o", color=shade, markersize=4)
+            words = f"{found.successes} of {found.of}" + (f", {lost} diverged" if lost else "")
             right.annotate(
-                f"{found.successes} of {found.of}", (1.02, row), xycoords=("axes fraction", "data"),
-                va="center", color=shade,
-            )  # fmt: skip
+                words, (1.02, row), xycoords=("axes fraction", "data"), va="center", color=shade
+            )
         left.set_yticks(range(len(cells)), [CellId.parse(cell).label for cell in cells])
         left.set_ylim(len(cells) - 0.4, -0.6)
         left.set_title(f"{task}: every run")

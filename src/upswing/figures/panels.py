@@ -175,13 +175,26 @@ def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: i
         x, y = last_step[:within:every], values[:, :within:every]
         if number == 0:
             axes.plot(x, y.T, color=colour(cell), linewidth=0.4, alpha=0.35)
-        median = np.median(y, axis=0)
+            mark_divergence(axes, x, y)
+        finite = ~np.isnan(y).any(axis=1)
+        median = np.median(y[finite], axis=0) if finite.any() else np.full(len(x), np.nan)
         style = "-" if number == 0 else "--"
         axes.plot(x, median, style, color=colour(cell), linewidth=1.8 if number == 0 else 1.2)
-        ends.append((float(median[-1]), label, colour(cell)))
+        lost = int((~finite).sum())
+        words = f"{label} ({lost} diverged)" if lost else label
+        ends.append((float(median[-1]) if finite.any() else 0.0, words, colour(cell)))
     axes.set_xlim(0, steps or float(lines[0][2][-1]))
     steps_axis(axes)
     label_ends(axes, ends)
+
+
+def mark_divergence(axes: Axes, x: Real, y: Real) -> None:
+    """A cross where the line of a run that diverged ends, shape (runs, points)."""
+    for line in y[np.isnan(y).any(axis=1)]:
+        known = np.flatnonzero(~np.isnan(line))
+        at = known[-1] if len(known) else 0
+        value = line[at] if len(known) else 0.0
+        axes.plot(x[at], value, "x", color="black", markersize=4, markeredgewidth=0.9, alpha=0.6)
 
 
 def label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:

@@ -19,7 +19,7 @@ class Share(NamedTuple):
 
 def share(results: Results, cell: str) -> Share:
     """How many runs of a cell succeed, with the 95 % interval of the share."""
-    fulfilled = succeeds(results.cell(cell), results.task(cell))
+    fulfilled = succeeds(results.counted(cell), results.task(cell))
     successes, of = int(fulfilled.sum()), len(fulfilled)
     estimate = statistics.share(successes, of)
     return Share(100 * estimate.value, 100 * estimate.low, 100 * estimate.high, successes, of)

@@ -34,7 +34,7 @@ class Transition(NamedTuple):
 
 
 class Trajectory(NamedTuple):
-    """A whole run; row t holds s_t, a_t and what followed. Every array has shape (steps,)."""
+    """A whole run; row t holds s_t, a_t and what followed. Every array but the last: shape (steps,)."""
 
     angle: Column  # φ of s_t [rad]
     angular_velocity: Column  # φ̇ of s_t [rad/s]
@@ -44,6 +44,11 @@ class Trajectory(NamedTuple):
     reward: Column  # r_{t+1} [rad²]
     td_error: Column  # δ [rad²]; NaN where nothing was learned
     reset: NDArray[np.bool_]  # whether a_t led to a fall and so to a new start
+    diverged_at: NDArray[np.int64]  # the step at which a value was not finite; NEVER. Shape (1,)
+
+
+NEVER = -1
+"""What ``diverged_at`` is while every value is finite."""
 
 
 def empty_trajectory(steps: int) -> Trajectory:
@@ -57,6 +62,7 @@ def empty_trajectory(steps: int) -> Trajectory:
         reward=np.zeros(steps, dtype=np.float32),
         td_error=np.zeros(steps, dtype=np.float32),
         reset=np.zeros(steps, dtype=np.bool_),
+        diverged_at=np.full(1, NEVER, dtype=np.int64),
     )
 
 

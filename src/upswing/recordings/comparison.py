@@ -95,8 +95,10 @@ def write_task(path: Path, results: Results, task: str) -> None:
         for cell in cells:
             ensemble = results.ensemble(cell)
             last_step, values = _in_points(ensemble)
-            middle = np.median(values, axis=0)
-            quartiles = np.quantile(values, (0.25, 0.75), axis=0)
+            finite = values[~ensemble.diverged]
+            counted = finite if len(finite) else values
+            middle = np.median(counted, axis=0)
+            quartiles = np.quantile(counted, (0.25, 0.75), axis=0)
             place, name, shade = _entity(cell), CellId.parse(cell).label, rgb(cell)
             for entity, lines, labels, width in (
                 (f"cells/{place}/runs", values, [f"seed {seed}" for seed in ensemble.seeds], THIN),

@@ -37,10 +37,10 @@ from upswing.study.paths import (
     comparison,
     figure,
     figure_of_sweep,
+    finalists_of_sweep,
     group_of_sweep,
 )
-from upswing.study.sweeps import SELECTION as CHOOSING
-from upswing.study.sweeps import Group, Sweep, content_of, groups
+from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
@@ -136,8 +136,7 @@ class Targets:
     @cached_property
     def readings(self) -> list[str]:
         """What the sweeps come to: tables, and a figure of each sweep that judges claims."""
-        judging = [name for name in self.sweeps if name != CHOOSING]
-        pictures = [figure_of_sweep(name, kind) for name in judging for kind in ("svg", "png")]
+        pictures = [figure_of_sweep(name, kind) for name in self.sweeps for kind in ("svg", "png")]
         tables = [table for table in SWEPT if table != SELECTION or CHOOSING in self.sweeps]
         return self._below(*tables, *pictures)
 
@@ -237,6 +236,20 @@ class Targets:
             *swept,
             *(self.beyond or [path for path in self._chapter() if Path(path).exists()]),
         ]
+
+    def before_sweep(self, job: str) -> list[str]:
+        """What a job of the sweeps reads: which readings go on to its round, after the first."""
+        name, number = job.partition("/")[0], self.groups[job][1].round
+        return self._below(finalists_of_sweep(name, number)) if number > 1 else []
+
+    def before_round(self, name: str, number: int) -> list[str]:
+        """The tables of all jobs of a sweep before a round."""
+        jobs = groups(self.sweeps[name], self.study)
+        return self._below(*(group_of_sweep(name, one.name) for one in jobs if one.round < number))
+
+    def reports_of_sweep(self, name: str) -> str:
+        """What says which readings go on, as one line."""
+        return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
 
     def content_of_sweep(self, job: str) -> str:
         """What the result of a job of the sweeps depends on besides the code, as a checksum."""

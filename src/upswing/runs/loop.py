@@ -1,5 +1,6 @@
 """Q-learning, line for line as in §3.1.3 (and §3.2.2 for networks), for every learner and encoder."""
 
+from math import isfinite, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,7 +9,7 @@ from upswing.agents.algorithms import Step, after_choice, before_choice, learn_f
 from upswing.agents.features import locate
 from upswing.agents.learners import values
 from upswing.agents.policy import Rule, epsilon_greedy
-from upswing.physics.environment import State, Trajectory, record, transition
+from upswing.physics.environment import NEVER, State, Trajectory, record, transition
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import Task
@@ -33,18 +34,29 @@ def learn(
 
     A run may be learned in several calls: the same trajectory as in one. ``learner``, ``method``,
     the two streams of random numbers and ``trajectory`` are changed in place.
+
+    A run whose values overflow has diverged: ``trajectory.diverged_at`` says when it first met a state
+    whose values are not all finite. It learns no more from there on; what it does then means nothing.
     """
     td_errors = trajectory.td_error
+    if first == 0:
+        trajectory.diverged_at[0] = NEVER
+    is_finite = trajectory.diverged_at[0] == NEVER
     # Observe starting state s
     place = locate(encoder, state.angle, state.angular_velocity)
     # Repeat:
     for t in range(first, last):
-        before_choice(algorithm, encoder, learner, rule, td_errors, place)
+        if is_finite:
+            before_choice(algorithm, encoder, learner, rule, td_errors, place)
 
         # Choose a from s using policy derived from Q
         q = values(learner, place)
+        if is_finite and not isfinite(q[0] + q[1] + q[2]):
+            trajectory.diverged_at[0] = t
+            is_finite = False
         action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
-        after_choice(algorithm, encoder, learner, rule, td_errors, place, action)
+        if is_finite:
+            after_choice(algorithm, encoder, learner, rule, td_errors, place, action)
 
         # Take action a, observe r, s′
         taken = transition(body, task, rule.discount, state, action, starts)
@@ -56,7 +68,9 @@ def learn(
             t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
             next_place, taken.fell, taken.terminal,
         )  # fmt: skip
-        td_error = learn_from(algorithm, encoder, learner, rule, td_errors, step)
+        td_error = (
+            learn_from(algorithm, encoder, learner, rule, td_errors, step) if is_finite else nan
+        )
         record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
 
         # s ← s′

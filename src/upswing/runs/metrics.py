@@ -8,7 +8,7 @@ from math import copysign, floor, nan, pi, radians
 
 import numpy as np
 
-from upswing.physics.environment import Trajectory
+from upswing.physics.environment import NEVER, Trajectory
 from upswing.physics.jit import compiled
 from upswing.physics.tasks import HORIZONTAL
 from upswing.runs.success import SUCCESS
@@ -19,6 +19,10 @@ UPRIGHT = radians(20)
 
 STABLE_STEPS = 5_000
 """A window this long without a fall (balancing) or mostly upright (full control) is stable [steps]."""
+
+END = 100_000
+"""The last steps, in which a run *stands at the end* or does not: 8 min 20 s, so that a run that rises
+late can reach it; or its last fifth, if that is shorter [steps]."""
 
 WINDOWS = 1_000
 """Into how many windows a run is divided, at most."""
@@ -40,6 +44,7 @@ def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures
     last = last_fifth(steps)
     falls, upright, above, reward = _sums(trajectory, last, steps)
     first_stable = _first_stable(trajectory, by_falls, STABLE_STEPS, SUCCESS)
+    end = max(last, steps - END)
     length = steps - last
     below, recovered = _recoveries(trajectory, last, steps)
     swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
@@ -61,6 +66,9 @@ def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures
         arrival_speed=float(speed / swing_ups) if swing_ups else None,
         too_fast_share=float(unstoppable / swing_ups) if swing_ups else None,
         recovered_share=recovered / below if below else None,
+        upright_at_end=float(_sums(trajectory, end, steps)[1] / (steps - end)),
+        too_fast_last_fifth=_arrivals(trajectory, last, steps, too_fast)[2],
+        diverged_at=None if (at := int(trajectory.diverged_at[0])) == NEVER else at,
     )
 
 
@@ -69,8 +77,8 @@ def last_fifth(steps: int) -> int:
     return steps - max(steps // 5, 1)
 
 
-def in_windows(trajectory: Trajectory) -> Windows:
-    """The run in at most ``WINDOWS`` windows."""
+def in_windows(trajectory: Trajectory, too_fast: float) -> Windows:
+    """The run in at most ``WINDOWS`` windows; ``too_fast`` as for ``measure``."""
     steps = len(trajectory.angle)
     length = -(-steps // WINDOWS)
     count = -(-steps // length)
@@ -80,8 +88,10 @@ def in_windows(trajectory: Trajectory) -> Windows:
         np.minimum(first_step + length, steps) - first_step,
         np.zeros(count, dtype=np.int64),
         *(np.zeros(count) for _ in range(7)),
+        *(np.zeros(count, dtype=np.int64) for _ in range(4)),
     )
     _fill(trajectory, windows)
+    _count(trajectory, windows, too_fast)
     return windows
 
 
@@ -177,6 +187,30 @@ def _fill(trajectory: Trajectory, windows: Windows) -> None:
         windows.highest_angle[w] = highest
         windows.highest_speed[w] = speed
         windows.mean_td_error[w] = td_errors / learned if learned > 0 else NOTHING_LEARNED
+
+
+@compiled
+def _count(trajectory: Trajectory, windows: Windows, too_fast: float) -> None:
+    """Arrivals and excursions by window: each counts in the window in which it begins."""
+    began = 0
+    is_below, is_open = False, False
+    for w in range(len(windows.first_step)):
+        first = windows.first_step[w]
+        last = first + windows.steps[w]
+        arrivals, _, unstoppable = _arrivals(
+            trajectory, first, min(last + 1, len(trajectory.angle)), too_fast
+        )
+        windows.swing_ups[w], windows.too_fast[w] = arrivals, unstoppable
+        for t in range(first, last):
+            tilt = abs(physical(trajectory.angle[t]))
+            if tilt > HORIZONTAL and not is_below:
+                began = w
+                windows.excursions[w] += 1
+                is_open = True
+            is_below = tilt > HORIZONTAL
+            if is_open and tilt <= UPRIGHT:
+                windows.recovered[began] += 1
+                is_open = False
 
 
 @compiled

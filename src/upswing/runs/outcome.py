@@ -26,10 +26,12 @@ class Outcome(NamedTuple):
 
 def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) -> Outcome:
     """Measure a run of ``spec`` that ``setting`` has learned and ``trajectory`` holds."""
-    measures = measure(
-        trajectory, spec.task.judged_by == "falls", highest_stoppable_speed(setting.body)
-    )
-    windows = in_windows(trajectory)
+    too_fast = highest_stoppable_speed(setting.body)
+    measures = measure(trajectory, spec.task.judged_by == "falls", too_fast)
+    if measures.diverged_at is None and not _is_finite(setting):
+        # An overflow that no later step met.
+        measures = measures._replace(diverged_at=spec.task.steps - 1)
+    windows = in_windows(trajectory, too_fast)
     kept = kept_steps(trajectory, measures.first_stable_step)
     row = {
         **measures._asdict(),
@@ -37,3 +39,8 @@ def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) 
         "digest": digest(trajectory, kept, windows),
     }
     return Outcome(measures, windows, kept, row)
+
+
+def _is_finite(setting: Setting) -> bool:
+    """Whether everything that was learned is a number."""
+    return all(bool(np.isfinite(values).all()) for values in setting.learner.learned.values())

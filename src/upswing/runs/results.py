@@ -46,6 +46,7 @@ class Ensemble(NamedTuple):
     last_step: Real  # after which step a window ends: (windows,)
     falls: Real
     upright_share: Real
+    diverged: NDArray[np.bool_]  # which runs diverged: (runs,); NaN from the window of it on
 
     @property
     def falls_so_far(self) -> Real:
@@ -111,14 +112,20 @@ class Results:
             raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
         return self.runs[self.runs["cell"] == cell]
 
+    def counted(self, cell: str) -> pd.DataFrame:
+        """The rows of a cell's runs that count: those whose values stayed finite."""
+        runs = self.cell(cell)
+        return runs[runs["diverged_at"].isna()]
+
     def task(self, cell: str) -> NamedTask:
         """The task of a cell."""
         return self.cells[cell].task
 
     def in_order(self, cell: str) -> pd.DataFrame:
-        """The rows of a cell's runs, the worst first."""
+        """The rows of a cell's runs, the worst first; of those that count, unless all diverged."""
         order = self.task(cell).order_of_runs
-        runs = self.cell(cell)
+        counted = self.counted(cell)
+        runs = counted if len(counted) else self.cell(cell)
         self.check_measures(runs, list(order))
         return runs.sort_values(list(order), ascending=list(order.values()))
 
@@ -163,12 +170,22 @@ class Results:
         """All runs of a cell."""
         rows = self.cell(cell)
         windows = [self._read(run, WINDOWS) for run in rows["run"]]
+        last_step = (windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float)
+        diverged_at = rows["diverged_at"].to_numpy(float, na_value=np.inf)
+        meaningful = last_step <= diverged_at[:, None]
+        falls, upright_share = (
+            np.where(
+                meaningful, np.stack([frame[name].to_numpy(float) for frame in windows]), np.nan
+            )
+            for name in ("falls", "upright_share")
+        )
         return Ensemble(
             task=self.task(cell),
             seeds=[int(seed) for seed in rows["seed"]],
-            last_step=(windows[0]["first_step"] + windows[0]["steps"]).to_numpy(float),
-            falls=np.stack([frame["falls"].to_numpy(float) for frame in windows]),
-            upright_share=np.stack([frame["upright_share"].to_numpy(float) for frame in windows]),
+            last_step=last_step,
+            falls=falls,
+            upright_share=upright_share,
+            diverged=np.isfinite(diverged_at),
         )
 
     def _read(self, run: str, file: str) -> pd.DataFrame:

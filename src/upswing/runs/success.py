@@ -9,11 +9,11 @@ if TYPE_CHECKING:
 
 SUCCESS = 0.9
 """Full control succeeds if the pendulum is upright for this share of what is judged: of a run's last
-fifth, of a policy's last steps from a start, of a stable window."""
+100,000 steps, of a policy's last steps from a start, of a stable window."""
 
 
 def succeeds(runs: "pd.DataFrame", task: Task | type[Task]) -> "pd.Series":
-    """Whether each run of a task does not fall in its last fifth, or is upright for most of it."""
+    """Whether each run of a task does not fall in its last fifth, or stands at the end."""
     if task.judged_by == "falls":
         return runs["falls_last_fifth"] == 0
-    return runs["upright_share"] >= SUCCESS
+    return runs["upright_at_end"] >= SUCCESS

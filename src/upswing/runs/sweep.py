@@ -1,5 +1,6 @@
 """A group of readings → one row a run: its measures, and nothing else of it."""
 
+import json
 import time
 from pathlib import Path
 from typing import Any
@@ -15,13 +16,13 @@ from upswing.runs.simulation import prepare
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
 from upswing.study.measured import Measures
-from upswing.study.paths import group_of_sweep
+from upswing.study.paths import finalists_of_sweep, group_of_sweep
 from upswing.study.spec import Spec
-from upswing.study.sweeps import Sweep, canonical_of, groups, label, specs
+from upswing.study.sweeps import Overrides, Sweep, canonical_of, groups, label, specs
 
 OF_A_SWEPT_RUN: Columns = {
     **OF_A_RUN, "sweep": "text", "readings": "text", "cell": "text", "task": "text",
-    **dict.fromkeys(Measures._fields, "number"),
+    **dict.fromkeys(Measures._fields, "number"), "diverged_at": "whole?",
 }  # fmt: skip
 
 
@@ -31,15 +32,20 @@ def path_of(results: Path, sweep: str, group: str) -> Path:
 
 
 def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str) -> Path:
-    """Run a group of a sweep and write its table; returns the table's path."""
+    """Run a group of a sweep and write its table; returns the table's path.
+
+    Raises:
+        BadInput: there is no such group, or nobody has said which readings go on to its round.
+    """
     known = {one.name: one for one in groups(sweep, study)}
     if group not in known:
         raise BadInput([f"sweep {name}: {group}: no such group; {near(group, known)}"])
+    chosen = known[group]
     rows: list[dict[str, Any]] = []
-    for overrides in known[group].members:
+    for overrides in chosen.members or read_finalists(results, name, chosen.round):
         begin = time.perf_counter()
         before = len(rows)
-        for spec in specs(sweep, study, overrides):
+        for spec in specs(sweep, study, overrides, chosen):
             trajectory = empty_trajectory(spec.task.steps)
             rows += [
                 {
@@ -56,6 +62,19 @@ def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str
     write_table(path, pd.DataFrame(rows).astype(NULLABLE))
     seal(results, f"readings/{name}/{group}", [path])
     return path
+
+
+def read_finalists(results: Path, name: str, number: int) -> list[Overrides]:
+    """The readings that go on to a round of a sweep; ``BadInput`` if nobody has said which."""
+    path = results / finalists_of_sweep(name, number)
+    try:
+        found = json.loads(path.read_text("utf-8"))
+        if found and all(isinstance(one, dict) for one in found):
+            return list(found)
+    except (OSError, ValueError):
+        pass
+    said = "says not which readings go on" if path.exists() else "missing"
+    raise BadInput([f"{path}: {said}; `upswing finalists {name} {number} {results}` makes it"])
 
 
 def outcome(spec: Spec, seed: int, trajectory: Trajectory) -> dict[str, Any]:

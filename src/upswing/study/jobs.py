@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def sweep(swept: "Sweep", study: Study) -> Code:
     """The code that runs a sweep's cells under other readings."""
     cells = Matrix(study).cells
-    specs = [cells[cell] for cell in (*swept.cells, *swept.cells_of_singles)]
+    specs = [cells[cell] for cell in swept.every_cell]
     used = [(study.architectures[one.architecture.name], one.task.kind) for one in specs]
     return learning("upswing.runs.sweep", "upswing.runs.study_file", used=used)
 
@@ -57,5 +57,6 @@ CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
     ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
 )
+FINALISTS = Code(("upswing.analysis.robustness.selection",), ())
 COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
 VIEWER = Code(("upswing.recordings.viewer",), ("rerun-sdk",))

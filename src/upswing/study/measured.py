@@ -28,6 +28,11 @@ class Measures(NamedTuple):
     arrival_speed: float | None  # mean |φ̇| on arriving [rad/s]; None without arrivals
     too_fast_share: float | None  # share of arrivals that ±10 m/s² cannot stop; None without them
     recovered_share: float | None  # see ``_recoveries``, in the last fifth; None if never below
+    upright_at_end: (
+        float  # share of upright steps in the last 100,000, or the last fifth if shorter
+    )
+    too_fast_last_fifth: int  # arrivals in the last fifth that ±10 m/s² cannot stop
+    diverged_at: int | None  # the step at which a value was not finite; None if all were
 
 
 class Greedy(NamedTuple):
@@ -54,3 +59,7 @@ class Windows(NamedTuple):
     highest_angle: "Real"  # [rad]
     highest_speed: "Real"  # |φ̇| [rad/s]
     mean_td_error: "Real"  # |δ| [rad²], of the steps that learned; NaN if none did
+    swing_ups: "Count"  # arrivals above the horizontal from below
+    too_fast: "Count"  # of them those that ±10 m/s² cannot stop
+    excursions: "Count"  # below the horizontal, that began in the window
+    recovered: "Count"  # of them those that ended upright before the next one

@@ -61,3 +61,8 @@ def comparison(name: str) -> str:
 def group_of_sweep(sweep: str, group: str) -> str:
     """The table of a job of a sweep."""
     return f"readings/{sweep}/{group}.parquet"
+
+
+def finalists_of_sweep(sweep: str, number: int) -> str:
+    """Which readings go on to a round of a sweep."""
+    return f"readings/{sweep}/round-{number}.json"

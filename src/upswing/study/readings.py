@@ -34,7 +34,7 @@ def _check(options: tuple[float, ...]) -> Callable[[float], float]:
 
 
 WEIGHTS = (1, 0.5, 0.1)
-RATES = (0.03, 0.1, 0.3, 0.5, 1)
+RATES = (0.03, 0.05, 0.07, 0.1, 0.11, 0.12, 0.13, 0.15, 0.2, 0.3, 0.5, 1)
 InitialWeights = Annotated[
     float, AfterValidator(_check(WEIGHTS)), WithJsonSchema({"enum": list(WEIGHTS)})
 ]

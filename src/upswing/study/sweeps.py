@@ -26,18 +26,33 @@ Pair = Annotated[tuple[str, ...], BeforeValidator(listed), Field(min_length=2, m
 MOST_READINGS = 5_000
 """Largest number of readings of a grid; every few of them are a job."""
 
-SELECTION = "selection"
+CHOOSING = "networks"
 """The sweep by which the networks' default is chosen."""
 
-CELLS_OF_SELECTION = {
-    "p7": "balancing/networks-5/alpha-1",
-    "p9": "full-control/networks-30/alpha-1",
-    "p11": "full-control/modular-networks-5/alpha-1",
-}
-"""The cells of figures 7, 9 and 11, which the rule asks."""
+SEEDS_OF_A_JOB = 24
+"""Number of seeds that a job of a later round runs."""
 
 Overrides = dict[str, Any]
 """Readings that differ from the study's, by name."""
+
+
+class Report(Strict):
+    """Something that the author reports of a run, by which readings are weighed."""
+
+    figure: Annotated[int, Field(ge=5, le=11)] = Field(description="The figure that shows it.")
+    cell: CellName = Field(description="The cell that the figure is of.")
+    shows: Literal["success", "failure", "both"] = Field(
+        description="Whether its run succeeds, fails, or some runs do and some do not."
+    )
+
+
+class Round(Strict):
+    """A round of successive halving: the likeliest readings go on, with more seeds."""
+
+    readings: Annotated[int, Field(ge=1)] = Field(description="How many readings go on.")
+    seeds: Annotated[int, Field(ge=1, le=10_000)] = Field(
+        description="How many seeds each has then, those of the rounds before included."
+    )
 
 
 class Sweep(Strict):
@@ -56,6 +71,36 @@ class Sweep(Strict):
     cells_of_singles: Cells = Field(
         default=(), description="Costly cells, run when at most one reading differs."
     )
+    every: dict[CellName, Annotated[int, Field(ge=1)]] = Field(
+        default_factory=dict, description="Of a costly cell every so-many-th seed is run."
+    )
+    beside: Cells = Field(
+        default=(), description="Cells that no varied reading touches: run once, as in the study."
+    )
+    seeds_beside: Annotated[int, Field(ge=1, le=1000)] = Field(
+        default=1, description="How many seeds they have."
+    )
+    reports: dict[Name, Report] = Field(
+        default_factory=dict,
+        description="What the author reports; it says how likely a reading is.",
+    )
+    rounds: Annotated[tuple[Round, ...], BeforeValidator(listed)] = Field(
+        default=(), description="Rounds in which the likeliest readings get more seeds."
+    )
+    cells_of_rounds: Cells = Field(
+        default=(), description="Costly cells, run for the readings that go on only."
+    )
+
+    @property
+    def every_cell(self) -> tuple[str, ...]:
+        """All cells that are run under some reading."""
+        return (*self.cells, *self.cells_of_singles, *self.cells_of_rounds, *self.beside)
+
+    @property
+    def last_seed(self) -> int:
+        """The largest seed of any round."""
+        counts = (self.seeds, self.seeds_beside, *(one.seeds for one in self.rounds))
+        return self.first_seed + max(counts) - 1
 
 
 class Sweeps(RootModel[Annotated[dict[Name, Sweep], Field(min_length=1)]]):
@@ -66,7 +111,11 @@ class Group(NamedTuple):
     """Readings that share a job."""
 
     name: str
-    members: list[Overrides]
+    members: list[Overrides]  # none where those are meant that go on to a later round
+    seeds: range
+    cells: tuple[str, ...]
+    cells_of_singles: tuple[str, ...] = ()
+    round: int = 1
 
 
 def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
@@ -87,7 +136,7 @@ def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
                 for word in words
                 if word not in right
             ]
-        if sweep.first_seed + sweep.seeds - 1 > LARGEST_SEED:
+        if sweep.last_seed > LARGEST_SEED:
             beyond = f"with first_seed {sweep.first_seed} the last is beyond {LARGEST_SEED}"
             problems.append(problem(str(path), f"{name}.seeds", sweep.seeds, beyond))
         readings = prod(len(options_of(word)) for word in sweep.vary if word in known)
@@ -97,37 +146,71 @@ def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
         if twice := sorted(set(sweep.cells) & set(sweep.cells_of_singles)):
             double = "stands in `cells` too; keep one"
             problems.append(problem(str(path), f"{name}.cells_of_singles", twice[0], double))
-        if name == SELECTION and (
-            lost := sorted(set(CELLS_OF_SELECTION.values()) - set(sweep.cells))
-        ):
-            needs = f"the rule of selection needs {', '.join(lost)} too"
-            problems.append(problem(str(path), f"{name}.cells", sweep.cells, needs))
+        problems += [
+            problem(str(path), f"{name}.{place}", cell, "is run by no round; name it in `cells`")
+            for place, cell, known_here in (
+                *((f"reports.{key}", one.cell, sweep.cells) for key, one in sweep.reports.items()),
+                *(("every", cell, (*sweep.cells, *sweep.cells_of_rounds)) for cell in sweep.every),
+            )
+            if cell not in known_here
+        ]
+        if sweep.rounds and not sweep.reports:
+            problems.append(
+                f"{path}: {name}.reports: missing: rounds need them to say which readings go on"
+            )
+        counts = [sweep.seeds, *(one.seeds for one in sweep.rounds)]
+        if counts != sorted(set(counts)):
+            more = "each round has more seeds than the one before"
+            problems.append(problem(str(path), f"{name}.rounds", counts, more))
     if problems:
         raise BadInput(problems)
     check_cells(
         {
             f"{name}.{key}[{number}]": cell
             for name, sweep in sweeps.items()
-            for key in ("cells", "cells_of_singles")
+            for key in ("cells", "cells_of_singles", "cells_of_rounds", "beside")
             for number, cell in enumerate(getattr(sweep, key))
         },
         study,
         path,
     )
     # A study with fewer cells sweeps fewer.
-    return {
-        name: sweep
-        for name, sweep in sweeps.items()
-        if set(sweep.cells) | set(sweep.cells_of_singles) <= set(cells)
-    }
+    return {name: sweep for name, sweep in sweeps.items() if set(sweep.every_cell) <= set(cells)}
 
 
 def groups(sweep: Sweep, study: Study) -> list[Group]:
-    """The readings of a sweep, in jobs of some that differ in the last reading or from it."""
+    """The jobs of a sweep: its readings in groups, what is run once, and the later rounds."""
+    seeds = range(sweep.first_seed, sweep.first_seed + sweep.seeds)
+    made = [
+        Group(name, members, seeds, sweep.cells, sweep.cells_of_singles)
+        for name, members in _readings(sweep, study)
+    ]
+    if sweep.beside:
+        once_only = range(sweep.first_seed, sweep.first_seed + sweep.seeds_beside)
+        made.append(Group("beside", [{}], once_only, sweep.beside))
+    cells = (*sweep.cells, *sweep.cells_of_rounds)
+    start = sweep.seeds
+    for number, one in enumerate(sweep.rounds, 2):
+        for first in range(start, one.seeds, SEEDS_OF_A_JOB):
+            last = min(first + SEEDS_OF_A_JOB, one.seeds)
+            own = range(sweep.first_seed + first, sweep.first_seed + last)
+            name = f"round-{number}_seeds-{own[0]}-to-{own[-1]}"
+            made.append(Group(name, [], own, cells, round=number))
+        start = one.seeds
+    return made
+
+
+def readings_of(sweep: Sweep, study: Study) -> list[Overrides]:
+    """Every reading of a sweep."""
+    return [member for _, members in _readings(sweep, study) for member in members]
+
+
+def _readings(sweep: Sweep, study: Study) -> list[tuple[str, list[Overrides]]]:
+    """The readings of a sweep, in groups of some that differ in the last reading or from it."""
     if sweep.how == "grid":
         *outer, last = sweep.vary
         return [
-            Group(_name(chosen) or "all", [{**chosen, last: option} for option in options_of(last)])
+            (_name(chosen) or "all", [{**chosen, last: option} for option in options_of(last)])
             for values in product(*(options_of(name) for name in outer))
             for chosen in [dict(zip(outer, values, strict=True))]
         ]
@@ -143,22 +226,29 @@ def groups(sweep: Sweep, study: Study) -> list[Group]:
         for one, other in combinations(singles, 2)
         if len({*one, *other}) == 2 and frozenset({*one, *other}) not in excluded
     ]
-    made = [Group("as-the-study", [{}, *singles])]
+    made = [("as-the-study", [{}, *singles])]
     for single in singles:
         own = [pair for pair in pairs if next(iter(pair.items())) == next(iter(single.items()))]
         if own:
-            made.append(Group(_name(single), own))
+            made.append((_name(single), own))
     return made
 
 
-def specs(sweep: Sweep, study: Study, overrides: Overrides) -> Iterator[Spec]:
-    """The cells of a sweep under a reading, each with all its seeds."""
+def specs(
+    sweep: Sweep, study: Study, overrides: Overrides, group: Group | None = None
+) -> Iterator[Spec]:
+    """The cells of a sweep, or of a group of it, under a reading, each with its seeds."""
     cells = Matrix(study).cells
     readings = study.readings.model_copy(update=overrides)
-    seeds = tuple(range(sweep.first_seed, sweep.first_seed + sweep.seeds))
-    chosen = (*sweep.cells, *(sweep.cells_of_singles if len(overrides) <= 1 else ()))
+    if group is None:
+        seeds = range(sweep.first_seed, sweep.first_seed + sweep.seeds)
+        group = Group("", [], seeds, (*sweep.cells, *sweep.cells_of_rounds), sweep.cells_of_singles)
+    chosen = (*group.cells, *(group.cells_of_singles if len(overrides) <= 1 else ()))
     for cell in chosen:
-        yield cells[cell].model_copy(update={"readings": readings, "seeds": seeds})
+        every = sweep.every.get(cell, 1)
+        seeds_of_cell = tuple(s for s in group.seeds if (s - sweep.first_seed) % every == 0)
+        if seeds_of_cell:
+            yield cells[cell].model_copy(update={"readings": readings, "seeds": seeds_of_cell})
 
 
 def content_of(sweep: Sweep, study: Study, group: Group, cells: Mapping[str, Spec]) -> str:
@@ -167,14 +257,12 @@ def content_of(sweep: Sweep, study: Study, group: Group, cells: Mapping[str, Spe
     ``cells`` are those of the study, which the workflow has already.
     """
     # In a grid every varied reading is said by the group; in pairs it is the study's where it is not.
-    said = {name: options_of(name)[0] for name in sweep.vary} if sweep.how == "grid" else {}
-    update = {
-        "readings": study.readings.model_copy(update=said),
-        "seeds": tuple(range(sweep.first_seed, sweep.first_seed + sweep.seeds)),
-    }
+    is_said = sweep.how == "grid" and group.members != [{}]
+    said = {name: options_of(name)[0] for name in sweep.vary} if is_said else {}
+    update = {"readings": study.readings.model_copy(update=said), "seeds": tuple(group.seeds)}
     texts = [
-        cells[cell].model_copy(update=update).canonical()
-        for cell in (*sweep.cells, *sweep.cells_of_singles)
+        f"{cells[cell].model_copy(update=update).canonical()} {sweep.every.get(cell, 1)}"
+        for cell in (*group.cells, *group.cells_of_singles)
     ]
     texts += [canonical_of(member) for member in group.members]
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]

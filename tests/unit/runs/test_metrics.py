@@ -42,7 +42,19 @@ def test_against_plain_numpy(kind, architecture):
     assert found.upright_share == pytest.approx((tilt[last] <= np.radians(20)).mean())
     assert found.above_horizontal_share == pytest.approx(above[last].mean())
     assert found.mean_reward == pytest.approx(trajectory.reward[last].mean(dtype=float), rel=1e-6)
-    windows = measures.in_windows(trajectory)
+    end = slice(30_001 - 6_000, None)  # shorter than 100,000 steps
+    assert found.upright_at_end == pytest.approx((tilt[end] <= np.radians(20)).mean())
+    assert found.diverged_at is None
+    windows = measures.in_windows(trajectory, TOO_FAST)
+    assert windows.swing_ups.sum() == found.swing_ups
+    unstoppable = round((found.too_fast_share or 0.0) * found.swing_ups)
+    assert windows.too_fast.sum() == unstoppable
+    begins = np.flatnonzero(np.diff(above.astype(int), prepend=1) == -1)
+    assert windows.excursions.sum() == len(begins)
+    for w, (first, steps) in enumerate(zip(windows.first_step, windows.steps, strict=True)):
+        assert windows.excursions[w] == ((first <= begins) & (begins < first + steps)).sum()
+    rose = [(part <= np.radians(20)).any() for part in np.split(tilt, begins)[1:]]
+    assert windows.recovered.sum() == sum(rose)
     assert windows.steps.sum() == 30_001
     assert windows.falls.sum() == found.falls
     for w, (first, steps) in enumerate(zip(windows.first_step, windows.steps, strict=True)):
@@ -96,4 +108,4 @@ def test_the_last_fifth_is_the_last_fifth():
 def test_windows_of_a_control_have_no_td_error():
     trajectory = made_of(np.zeros(2_000))
     trajectory.td_error[:] = np.nan
-    assert np.isnan(measures.in_windows(trajectory).mean_td_error).all()
+    assert np.isnan(measures.in_windows(trajectory, TOO_FAST).mean_td_error).all()

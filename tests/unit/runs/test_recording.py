@@ -26,7 +26,7 @@ from upswing.runs.train import train
 def test_stretches_are_whole_and_end_in_a_gap(kind):
     trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
     stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
-    frames = stretches(trajectory, in_windows(trajectory), stable)
+    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable)
     assert (np.diff(frames.steps) > 0).all()
     whole = frames.steps[~frames.gap]
     assert set(range(STRETCH)) | set(range(30_000 - STRETCH, 30_000)) <= set(whole.tolist())

@@ -29,7 +29,7 @@ from upswing.agents.learners import Array, Beginning, values, values_of
 from upswing.agents.learners.backpropagation.dense import INPUTS, inputs
 from upswing.agents.policy import Q, Rule, epsilon_greedy
 from upswing.agents.replay import Replay, begin, collect, empty_replay, end, sample
-from upswing.physics.environment import State, record, transition
+from upswing.physics.environment import NEVER, State, record, transition
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACTIONS, Task
@@ -205,6 +205,8 @@ class DqnLearner:
         Where it learned, ``td_error`` is the δ of the minibatch's first decision; elsewhere NaN. With
         a step size of 0 it only acts. A piece goes on with the action of ``trajectory`` before it.
         """
+        if first == 0:
+            trajectory.diverged_at[0] = NEVER
         learns = rule.step_size > 0.0
         every = self.update_interval
         pauses = range(first + every - self.steps % every, last, every)
@@ -214,10 +216,13 @@ class DqnLearner:
             )  # fmt: skip
             if learns and to > first:
                 self.steps += to - first
-                if self.steps % every == 0 and self.steps >= self.learning_starts:
+                is_time = self.steps % every == 0 and self.steps >= self.learning_starts
+                if is_time and trajectory.diverged_at[0] == NEVER:
                     rows = sample(self.replay, self.batch_size, self.draws)
                     errors = self.update(rows, rule.step_size)
                     trajectory.td_error[to - 1] = errors[0] / rule.reward_scale
+                    if not np.isfinite(errors).all():  # as in ``loop.learn``: it learns no more
+                        trajectory.diverged_at[0] = to - 1
             first = to
         return state
 

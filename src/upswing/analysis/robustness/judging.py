@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.analysis.robustness.selection import SWEEP as SELECTION
 from upswing.analysis.verdicts import judge, sum_up
 from upswing.runs.results import Results
 from upswing.study.claims import Claim
@@ -57,8 +56,6 @@ def robustness(
     """
     rows: list[Row] = []
     for name, sweep in sweeps.items():
-        if name == SELECTION:
-            continue
         own = {
             key: claim for key, claim in claims.items() if sweep_of(claim, sweeps, study) == name
         }
@@ -72,7 +69,7 @@ def sweep_of(claim: Claim, sweeps: Mapping[str, Sweep], study: Study) -> str | N
     """The sweep that varies most of the readings that touch a claim's own cell, if any does."""
     best, most = None, 0
     for name, sweep in sweeps.items():
-        if name == SELECTION or claim.cell not in (*sweep.cells, *sweep.cells_of_singles):
+        if claim.cell not in (*sweep.cells, *sweep.cells_of_singles, *sweep.cells_of_rounds):
             continue
         spec = next(s for s in specs(sweep, study, {}) if s.cell == claim.cell)
         touching = study.readings.touching(

@@ -5,41 +5,131 @@ explain all three: the one under which what he reports is most likely,
 
     L = p₇ (1 − p₉) p₁₁ (1 − p₁₁),
 
-on seeds that no verdict uses.
+on seeds that no verdict uses. A factor is the probability that a run shows what the figure shows. A run
+that diverged shows neither a success nor a failure, so that under a reading whose networks overflow
+nothing is likely: of figure 9, 1 − p₉ is the share of runs that stayed finite *and* do not stand.
+
+Readings are many and runs are dear, so the selection goes in rounds (successive halving; Jamieson and
+Talwalkar 2016): all readings with few seeds, the likeliest with more.
 """
 
 import json
+from collections.abc import Mapping
+from pathlib import Path
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
+from upswing.analysis.robustness.read import read_sweep
+from upswing.runs.files.atomic import written
+from upswing.runs.files.ledger import seal
 from upswing.runs.success import succeeds
+from upswing.study.config import Study
 from upswing.study.ids import CellId
-from upswing.study.sweeps import CELLS_OF_SELECTION, SELECTION
+from upswing.study.paths import finalists_of_sweep
+from upswing.study.sweeps import Report, Sweep
 from upswing.study.task import kind_of_task
 
-SWEEP, CELLS = SELECTION, CELLS_OF_SELECTION
+DRAWS = 4_000
+SEED = 20_261_126
+"""The seed of the draws; any will do, as long as it stays."""
+
+Real = NDArray[np.float64]
 
 
-def select(runs: pd.DataFrame) -> pd.DataFrame:
+def write_finalists(results: Path, study: Study, name: str, sweep: Sweep, number: int) -> Path:
+    """Say which readings go on to a round, by the runs of the rounds before; returns the file's path.
+
+    Raises:
+        BadInput: some of those runs are missing.
+    """
+    runs = read_sweep(results, name, sweep, study, before=number)
+    ranked = select(runs, sweep.reports)["readings"]
+    chosen = [json.loads(text) for text in ranked[: sweep.rounds[number - 2].readings]]
+    path = results / finalists_of_sweep(name, number)
+    with written(path) as beside:
+        beside.write_text(json.dumps(chosen, indent=1) + "\n", "utf-8")
+    seal(results, f"readings/{name}/round-{number}", [path])
+    return path
+
+
+def select(runs: pd.DataFrame, reports: Mapping[str, Report]) -> pd.DataFrame:
     """The readings with their likelihood, the most likely first.
 
     Args:
-        runs: the rows of the sweep: every reading's runs of the three cells.
+        runs: the rows of the sweep: every reading's runs of the reports' cells.
+        reports: what the author reports, by name.
 
     Returns:
-        One row a reading: its options; of each cell how many runs succeed (``…_successes``), of how many
-        (``runs``), and the share estimated as (k + 1) / (n + 2); ``likelihood``. Equal ones stay in the
-        order of the grid.
+        One row a reading: its options; ``readings`` (JSON); of each report how many runs succeed, fail
+        and diverged (``…_successes``, ``…_failures``, ``…_diverged``) and the share that succeeds, as
+        (k + 1) / (n + 2); ``runs``, of all reports together; ``likelihood`` with a 95 % interval
+        (``low``, ``high``), and the probability that it is the likeliest of those with most runs
+        (``best``). Readings are compared within a round only: (k + 1) / (n + 2) flatters few runs. So
+        those with most runs come first; equal ones stay in the order of the grid.
     """
+    counted = counts(runs, reports)
     rows = []
-    for readings, of in runs.groupby("readings", sort=False):
-        row = dict(json.loads(str(readings)))
-        for name, cell in CELLS.items():
-            own = succeeds(of[of["cell"] == cell], kind_of_task(CellId.parse(cell).task))
-            row[f"{name}_successes"] = int(own.sum())
-            row["runs"] = len(own)
-            row[name] = (own.sum() + 1) / (len(own) + 2)
-        row["likelihood"] = row["p7"] * (1 - row["p9"]) * row["p11"] * (1 - row["p11"])
+    for text, of in counted.items():
+        row = dict(json.loads(text)) | {"readings": text}
+        for name, (successes, failures, diverged) in of.items():
+            row |= {
+                f"{name}_successes": successes,
+                f"{name}_failures": failures,
+                f"{name}_diverged": diverged,
+                name: (successes + 1) / (successes + failures + diverged + 2),
+            }
+        row["runs"] = sum(sum(of[name]) for name in reports)
+        row["likelihood"] = float(
+            np.prod([estimate(report, of[name]) for name, report in reports.items()])
+        )
         rows.append(row)
     frame = pd.DataFrame(rows)
-    return frame.sort_values("likelihood", ascending=False, kind="stable", ignore_index=True)
+    each = [
+        draws(report, [of[name] for of in counted.values()], number)
+        for number, (name, report) in enumerate(reports.items())
+    ]
+    drawn = np.prod(each, axis=0)
+    frame["low"], frame["high"] = np.quantile(drawn, (0.025, 0.975), axis=1)
+    finalists = (frame["runs"] == frame["runs"].max()).to_numpy()
+    likeliest = np.where(finalists[:, None], drawn, 0.0).argmax(axis=0)
+    frame["best"] = np.bincount(likeliest, minlength=len(frame)) / DRAWS
+    return frame.sort_values(
+        ["runs", "likelihood"], ascending=False, kind="stable", ignore_index=True
+    )
+
+
+Counts = tuple[int, int, int]
+"""How many runs succeed, fail and diverged."""
+
+
+def counts(runs: pd.DataFrame, reports: Mapping[str, Report]) -> dict[str, dict[str, Counts]]:
+    """For each reading (JSON) the runs of each report's cell."""
+    found: dict[str, dict[str, Counts]] = {}
+    own = runs[runs["cell"].isin({report.cell for report in reports.values()})]
+    for (readings, cell), of in own.groupby(["readings", "cell"], sort=False):
+        finite = of["diverged_at"].isna()
+        won = int((succeeds(of, kind_of_task(CellId.parse(str(cell)).task)) & finite).sum())
+        for name, report in reports.items():
+            if report.cell == cell:
+                lost = int(finite.sum()) - won
+                found.setdefault(str(readings), {})[name] = (won, lost, int((~finite).sum()))
+    return {text: of for text, of in found.items() if len(of) == len(reports)}
+
+
+def estimate(report: Report, of: Counts) -> float:
+    """How likely a run, or two, show what the author reports."""
+    won, lost = ((count + 1) / (sum(of) + 2) for count in of[:2])
+    return {"success": won, "failure": lost, "both": won * lost}[report.shows]
+
+
+def draws(report: Report, of: list[Counts], number: int) -> Real:
+    """That likelihood drawn from its posterior under a flat prior, shape (readings, DRAWS)."""
+    won, lost, diverged = (np.array(column)[:, None] for column in zip(*of, strict=True))
+    random = np.random.default_rng([SEED, number])
+    success = random.beta(won + 1, lost + diverged + 1, (len(of), DRAWS))
+    finite = random.beta(lost + 1, diverged + 1, (len(of), DRAWS))
+    failure = (1 - success) * np.where(diverged == 0, 1.0, finite)
+    found = {"success": success, "failure": failure, "both": success * failure}[report.shows]
+    return np.asarray(found)

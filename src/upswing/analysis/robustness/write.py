@@ -7,14 +7,14 @@ import pandas as pd
 
 from upswing.analysis.robustness.judging import decisive, robustness, summary
 from upswing.analysis.robustness.read import read_sweep
-from upswing.analysis.robustness.selection import SWEEP, select
+from upswing.analysis.robustness.selection import select
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
 from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
-from upswing.study.sweeps import Sweep
+from upswing.study.sweeps import CHOOSING, Sweep
 
 
 def write_readings(
@@ -31,8 +31,8 @@ def write_readings(
             [f"{results}: no sweep of the readings fits this study: it lacks their cells"]
         )
     runs = {name: read_sweep(results, name, sweep, study) for name, sweep in sweeps.items()}
-    if SWEEP in runs:
-        write_table(results / SELECTION, select(runs[SWEEP]))
+    if CHOOSING in runs:
+        write_table(results / SELECTION, select(runs[CHOOSING], sweeps[CHOOSING].reports))
     judged = robustness(sweeps, study, claims, runs)
     robust = summary(judged)
     write_table(results / READINGS, judged)

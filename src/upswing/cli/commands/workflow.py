@@ -171,6 +171,32 @@ def sweep(
     print(write_group(folder, asked, name, known[name], group))
 
 
+@panel.subcommand("finalists", cls=Job)
+def finalists(
+    name: Annotated[str, typer.Argument(metavar="SWEEP", help="Its name in the file of sweeps.")],
+    number: Annotated[int, typer.Argument(metavar="ROUND", min=2, help="The round, from 2.")],
+    positional: Positional = None,
+    results: Named = None,
+    study: AskedStudy = "",
+    sweeps: Sweeps = SWEEPS,
+) -> None:
+    """Say which readings of a sweep are likely enough to go on to a round with more seeds."""
+    from upswing.analysis.robustness.selection import write_finalists
+    from upswing.runs.study_file import read_study
+    from upswing.study.errors import BadInput, near
+    from upswing.study.sweeps import load_sweeps
+
+    folder = results_folder(results, positional)
+    asked = asked_study(study) or read_study(folder)
+    known = load_sweeps(sweeps, asked)
+    if name not in known:
+        raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
+    if number > len(known[name].rounds) + 1:
+        last = len(known[name].rounds) + 1
+        raise BadInput([f"{sweeps}: {name}: round {number}: there is none; the last is {last}"])
+    print(write_finalists(folder, asked, name, known[name], number))
+
+
 @panel.subcommand("readings", cls=Job)
 def readings(
     positional: Positional = None,

@@ -24,6 +24,7 @@ NULLABLE = {
     "arrival_speed": "float64",
     "too_fast_share": "float64",
     "recovered_share": "float64",
+    "diverged_at": "Int64",
 }
 """Columns that are empty for some runs."""
 
@@ -33,6 +34,7 @@ MEASURES = (
     "upright_share",
     "above_horizontal_share",
     "mean_reward",
+    "upright_at_end",
 )
 """What a cell is summed up by."""
 
@@ -44,13 +46,15 @@ JUDGED = ("reproduced", "partly", "inconclusive", "not reproduced", "not in this
 
 OF_A_RUN: Columns = {
     "run": "text", "seed": "whole", "steps": "whole", "recording": "text", "digest": "text",
+    "diverged_at": "whole?",
 }  # fmt: skip
 """What every table of runs has; its measures are asked for where they are used."""
 
 OF_A_CELL: Columns = {
     "cell": "text", "task": "text", "architecture": "text", "alpha": "number", "steps": "whole",
-    "runs": "whole", "runs_stable": "whole", "runs_without_fall_in_last_fifth": "whole",
-    "runs_upright": "whole", "steps_per_second_median": "number",
+    "runs": "whole", "runs_diverged": "whole", "runs_stable": "whole",
+    "runs_without_fall_in_last_fifth": "whole",
+    "runs_upright": "whole", "runs_upright_at_end": "whole", "steps_per_second_median": "number",
     **{f"first_stable_step_{part}": "number" for part in ("median", "low", "high")},
     **{
         f"{measure}_{part}": "number"

@@ -45,7 +45,12 @@ SCHEMA = pa.schema(
     ]
 )
 
-WINDOW_COUNTS = ("first_step", "steps", "falls")
+WINDOW_COUNTS = (
+    "first_step", "steps", "falls", "swing_ups", "too_fast", "excursions", "recovered",
+)  # fmt: skip
+
+DIGESTED = Windows._fields[: Windows._fields.index("swing_ups")]
+"""The windows' columns in a digest; the later ones say nothing that these and the steps do not."""
 
 OF_A_TRAJECTORY: Columns = {
     name: {"action": "whole", "step": "whole", "reset": "truth"}.get(name, "number")
@@ -78,7 +83,8 @@ def kept_steps(trajectory: "Trajectory", first_stable_step: int | None) -> NDArr
 def digest(trajectory: "Trajectory", steps: NDArray[np.int64], windows: "Windows") -> str:
     """What tells two runs apart: a checksum of the stored ``steps`` and of the windows of all steps."""
     checksum = sha256()
-    for column in (*(column[steps] for column in trajectory), *windows):
+    whole = (column[steps] for column in _columns(trajectory))
+    for column in (*whole, *(getattr(windows, name) for name in DIGESTED)):
         checksum.update(np.ascontiguousarray(column).tobytes())
     return checksum.hexdigest()[:16]
 
@@ -87,10 +93,14 @@ def write_trajectory(
     path: Path, trajectory: "Trajectory", steps: NDArray[np.int64], metadata: dict[bytes, bytes]
 ) -> None:
     """Store the given ``steps`` of a trajectory."""
-    columns = [steps, *(column[steps] for column in trajectory)]
-    # The schema's order is that of the fields of a trajectory, after the step.
+    columns = [steps, *(column[steps] for column in _columns(trajectory))]
     table = pa.table(columns, schema=SCHEMA.with_metadata(metadata))
     _write(path, table)
+
+
+def _columns(trajectory: "Trajectory") -> list[NDArray[Any]]:
+    """The columns of a trajectory in the order of the schema, which has the step before them."""
+    return [getattr(trajectory, name) for name in SCHEMA.names[1:]]
 
 
 def write_windows(path: Path, windows: "Windows", metadata: dict[bytes, bytes]) -> None:

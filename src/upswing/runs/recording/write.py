@@ -142,6 +142,9 @@ def _events(
     ]
     if measures.first_stable_step is not None:
         events.append((measures.first_stable_step, "INFO", "first stable window begins"))
+    if measures.diverged_at is not None:
+        words = "diverged: a value is not finite, and nothing after it means anything"
+        events.append((measures.diverged_at, "ERROR", words))
     events.sort()
     shown = set(frames.steps[~frames.gap].tolist())
     # What happened outside the stretches has no frame.
