@@ -6,7 +6,7 @@ import pandas as pd
 from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, write_study
-from upswing.study.claims import Part
+from upswing.study.claim_parts import Part
 from upswing.study.config import validated
 from upswing.study.paths import RUNS
 

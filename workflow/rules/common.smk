@@ -1,6 +1,7 @@
 # What all rules know: the study that is asked for, and the files that it comes to.
 
 import os
+import re
 import shlex
 import sys
 from functools import cache
@@ -16,7 +17,15 @@ if find_spec("upswing") is None:
         ".venv/bin/snakemake"
     )
 
-from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST, VIEWER_PAGE
+from upswing.study.paths import (
+    BOUND,
+    CHANGES,
+    CHOSEN,
+    MAPS,
+    SHORTEST,
+    TILES,
+    VIEWER_PAGE,
+)
 from upswing.report.targets import Targets, templates
 from upswing.runs.ending import answer_in_a_thread
 from upswing.runs.records import restore, taken_as_they_are
@@ -63,9 +72,6 @@ report: "../report/study.rst"
 
 
 wildcard_constraints:
-    task="[a-z0-9-]+",
-    architecture="[a-z0-9-]+",
-    alpha="[0-9.]+|none",
     figure="[a-z0-9-]+",
     comparison="(task|claim)-[A-Za-z0-9-]+",
     number="[0-9]+",

@@ -42,6 +42,7 @@ rule finalists:
 rule readings:
     input:
         f"{RESULTS}/study.json",
+        f"{RESULTS}/{TILES}",
         FILES.swept,
     output:
         FILES.readings,

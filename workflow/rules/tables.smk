@@ -39,9 +39,26 @@ rule tables:
         "upswing tables {RESULTS:q} > {log:q} 2>&1"
 
 
+rule tiles:
+    input:
+        no_file,
+    output:
+        f"{RESULTS}/{TILES}",
+    log:
+        f"{RESULTS}/logs/tiles.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/tiles.tsv"
+    params:
+        code=jobs.tiles().fingerprint,
+    shell:
+        "upswing tiles {RESULTS:q} > {log:q} 2>&1"
+
+
 rule verdicts:
     input:
         FILES.of_cells(FILES.judged_cells),
+        f"{RESULTS}/{TILES}",
+        lambda wildcards: FILES.weighed(workflow.dag_settings.targets),
     output:
         f"{RESULTS}/tables/verdicts.parquet",
         f"{RESULTS}/tables/evidence.parquet",

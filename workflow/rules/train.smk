@@ -1,6 +1,6 @@
 # Training: one job for every cell and block of seeds, one rule for every block.
 
-for BLOCK in MATRIX.blocks:
+for BLOCK, CELLS_OF_BLOCK in MATRIX.blocks.items():
 
     rule:
         name:
@@ -9,21 +9,22 @@ for BLOCK in MATRIX.blocks:
             no_file,
         output:
             expand(
-                f"{RESULTS}/runs/{{{{task}}}}/{{{{architecture}}}}/alpha-{{{{alpha}}}}/seed-{{seed}}.{KNOWN_FILE}",
+                f"{RESULTS}/runs/{{{{cell}}}}/seed-{{seed}}.{KNOWN_FILE}",
                 seed=BLOCK.seeds,
             ),
         log:
-            f"{RESULTS}/logs/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.log",
+            f"{RESULTS}/logs/train/{{cell}}/{BLOCK.name}.log",
         benchmark:
-            f"{RESULTS}/benchmarks/train/{{task}}/{{architecture}}/alpha-{{alpha}}/{BLOCK.name}.tsv"
+            f"{RESULTS}/benchmarks/train/{{cell}}/{BLOCK.name}.tsv"
+        wildcard_constraints:
+            cell="|".join(map(re.escape, CELLS_OF_BLOCK)),
         params:
             spec=lambda wildcards, block=BLOCK: MATRIX.job(
-                f"{wildcards.task}/{wildcards.architecture}/alpha-{wildcards.alpha}",
-                block,
+                wildcards.cell, block
             ).canonical(),
             code=lambda wildcards: jobs.training(
-                STUDY.architectures[wildcards.architecture],
-                STUDY.tasks[wildcards.task].kind,
+                MATRIX.cells[wildcards.cell].architecture,
+                MATRIX.cells[wildcards.cell].task.kind,
             ).fingerprint,
         shell:
             "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"

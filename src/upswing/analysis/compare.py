@@ -5,9 +5,13 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from upswing.runs.files.tables import read_evidence, read_runs, read_verdicts
-from upswing.runs.study_file import read_study
-from upswing.study.matrix import Matrix
+from upswing.runs.files.typed_table import Columns, read_table
+from upswing.study.paths import EVIDENCE, RUNS, VERDICTS
+
+OF_A_COMPARED: Columns = {
+    "claim": "text", "part": "whole", "cells": "text", "estimate": "number", "low": "number",
+    "high": "number",
+}  # fmt: skip
 
 
 class Comparison(NamedTuple):
@@ -32,7 +36,7 @@ def compare(a: Path, b: Path) -> Comparison:
     Raises:
         BadInput: a folder lacks a table, or has one that is empty or of another origin.
     """
-    verdicts_a, verdicts_b = (read_verdicts(folder).set_index("claim") for folder in (a, b))
+    verdicts_a, verdicts_b = (_verdicts(folder).set_index("claim") for folder in (a, b))
     claims = [*verdicts_a.index, *verdicts_b.index.difference(verdicts_a.index)]
     changed = []
     for claim in claims:
@@ -43,8 +47,8 @@ def compare(a: Path, b: Path) -> Comparison:
         if before != after:
             changed.append((str(claim), before, after))
     key = ["claim", "part", "cells"]
-    both = read_evidence(a).merge(
-        read_evidence(b), on=key, how="outer", suffixes=("_a", "_b"), indicator=True
+    both = _evidence(a).merge(
+        _evidence(b), on=key, how="outer", suffixes=("_a", "_b"), indicator=True
     )
     outside = (
         (both["estimate_a"] < both["low_b"])
@@ -75,5 +79,19 @@ def compare(a: Path, b: Path) -> Comparison:
     )
 
 
+# Only what is compared is asked for, so that results of another version can be.
+
+
+def _verdicts(folder: Path) -> pd.DataFrame:
+    remedy = f"`upswing verdicts {folder}` makes it"
+    return read_table(folder / VERDICTS, {"claim": "text", "verdict": "text"}, remedy)
+
+
+def _evidence(folder: Path) -> pd.DataFrame:
+    remedy = f"`upswing verdicts {folder}` makes it"
+    return read_table(folder / EVIDENCE, OF_A_COMPARED, remedy)
+
+
 def _runs(folder: Path) -> pd.DataFrame:
-    return read_runs(folder, set(Matrix(read_study(folder)).runs))
+    remedy = f"`upswing tables {folder}` makes it"
+    return read_table(folder / RUNS, {"run": "text", "digest": "text"}, remedy)

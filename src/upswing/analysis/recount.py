@@ -3,6 +3,7 @@
 A checksum shows damage; a table that somebody edited together with its checksum shows only here.
 """
 
+import json
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -64,7 +65,7 @@ def recount(
     yield from _held(RUNS, lambda: read_runs(results, list(matrix.runs)), lambda: runs)
     yield from _held(CELLS, lambda: read_cells(results, matrix.cells), lambda: summarise(runs))
     if claims is not None and judged_by(results) == canonical_claims(claims):
-        verdicts, evidence = judge_all(there, claims)
+        verdicts, evidence = judge_all(there, claims, _over(results))
         yield from _held(VERDICTS, lambda: read_verdicts(results), lambda: verdicts)
         yield from _held(EVIDENCE, lambda: read_evidence(results), lambda: evidence)
     if (path := results / CHANGES).is_file():
@@ -83,6 +84,14 @@ def judged_by(results: Path) -> str | None:
         return read_ledger(ledger_path(results, LEDGER)).made_from.get("claims")
     except BadInput:
         return None
+
+
+def _over(results: Path) -> dict[str, Any]:
+    """What the readings said of each claim when it was judged."""
+    found: dict[str, Any] = json.loads(
+        read_ledger(ledger_path(results, LEDGER)).made_from.get("readings", "{}")
+    )
+    return found
 
 
 def _held(

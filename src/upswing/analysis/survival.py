@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from upswing.analysis.statistics import CONFIDENCE, Estimate, binomial_tail, no_runs, share
+from upswing.analysis.statistics import CONFIDENCE, Estimate, no_runs, share
 
 
 def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Estimate:
@@ -28,8 +28,7 @@ def share_by(times: Sequence[float | None], limit: float, horizon: float) -> Est
     value, low, high = (
         1 - float(curve.evaluate(limit)) for curve in (survival, interval.high, interval.low)
     )
-    tail = binomial_tail(reached / n, n)  # nobody is censored before the limit
-    return Estimate(value, low, high, n, "Kaplan–Meier, log-log", tail)
+    return Estimate(value, low, high, n, "Kaplan–Meier, log-log")
 
 
 def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, float, float]:

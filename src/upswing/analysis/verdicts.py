@@ -1,28 +1,21 @@
 """Runs and claims → evidence (one row a comparison) → verdicts (one row a claim)."""
 
+import json
 from collections.abc import Mapping
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from upswing.analysis import statistics, survival
-from upswing.analysis.contraction import PROBLEMS, contracts
-from upswing.analysis.statistics import Estimate
+from upswing.analysis import statistics
+from upswing.analysis.comparisons import compare, own_values
+from upswing.analysis.fragility import fragile_because
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
-from upswing.study.claims import (
-    Bound,
-    Claim,
-    Part,
-    Verdict,
-    canonical_claims,
-    cells_of_claims,
-    weakest,
-)
-from upswing.study.errors import BadInput, near
+from upswing.study.claim_parts import Bound, Part, Verdict, weakest
+from upswing.study.claims import Claim, canonical_claims, cells_of_claims
 from upswing.study.paths import EVIDENCE, VERDICTS
 
 LEDGER = "verdicts"
@@ -48,31 +41,94 @@ class Evidence(NamedTuple):
     method: str
     spread_low: float  # 5th percentile of the runs' own values: the spread, no interval
     spread_high: float  # 95th
-    p_value: float
     verdict: Verdict
     could_be_better: bool  # the interval reaches the threshold: "partly" means at least partly
+    at_threshold: bool  # a line lies within the interval
+    diverged: int  # runs of these cells that are left out, for their values overflowed
     because: str
 
 
-def write_verdicts(results: Results, claims: Mapping[str, Claim]) -> pd.DataFrame:
+Over = Mapping[str, Mapping[str, Any]]
+"""What the readings say of each claim: rows of the table ``robust``, by claim."""
+
+OVER_READINGS = ("held_share", "weighted_share", "weighted_low", "weighted_high", "grade")
+"""What a verdict takes over from there."""
+
+ENOUGH = 0.05
+"""The share of the readings' weight under which a claim comes out otherwise that makes it fragile."""
+
+
+def write_verdicts(results: Results, claims: Mapping[str, Claim], over: Over) -> pd.DataFrame:
     """Judge every claim by the runs of ``results``; writes and returns the table of verdicts.
+
+    Args:
+        results: the runs.
+        claims: those to judge.
+        over: what the readings say of each, where they have been asked.
 
     Raises:
         BadInput: runs that claims are about are missing, or lack a measure that a claim asks for.
     """
     results.check_complete({cell for _, cell in cells_of_claims(claims)})
-    verdicts, evidence = judge_all(results, claims)
+    verdicts, evidence = judge_all(results, claims, over)
     tables = [results.folder / EVIDENCE, results.folder / VERDICTS]
     for path, table in zip(tables, (evidence, verdicts), strict=True):
         write_table(path, table)
-    seal(results.folder, LEDGER, tables, claims=canonical_claims(claims))
+    seal(
+        results.folder, LEDGER, tables, claims=canonical_claims(claims), readings=canonical_over(over)
+    )  # fmt: skip
     return verdicts
 
 
-def judge_all(results: Results, claims: Mapping[str, Claim]) -> tuple[pd.DataFrame, pd.DataFrame]:
+def canonical_over(over: Over) -> str:
+    """What the readings say as one line: the same text for the same meaning."""
+    taken = {claim: {name: row[name] for name in OVER_READINGS} for claim, row in over.items()}
+    return json.dumps(taken, sort_keys=True)
+
+
+def judge_all(
+    results: Results, claims: Mapping[str, Claim], over: Over
+) -> tuple[pd.DataFrame, pd.DataFrame]:
     """The table of verdicts, and that of the evidence."""
-    evidence = [row for name, claim in claims.items() for row in judge(results, name, claim)]
-    return sum_up(results, claims, evidence), pd.DataFrame(evidence)
+    evidence = evidence_of(results, claims)
+    because = fragile_because(
+        results, claims, lambda seen: verdicts_by(claims, evidence_of(seen, claims))
+    )
+    verdicts = sum_up(results, claims, evidence)
+    rows: list[dict[str, Any]] = []
+    for each in verdicts.to_dict("records"):
+        row = {str(name): value for name, value in each.items()}
+        of_claim = over.get(row["claim"], {})
+        why = [*because[row["claim"]], *_other_readings(row["verdict"], of_claim)]
+        taken = {name: of_claim.get(name) for name in OVER_READINGS}
+        rows.append({**row, **taken, "fragile": bool(why), "fragile_because": "; ".join(why)})
+    columns: dict[str, Any] = {name: "float64" for name in OVER_READINGS if name != "grade"}
+    columns |= {"grade": "string", "figure": "Int64"}
+    frame = pd.DataFrame(rows)
+    return (frame.astype(columns) if rows else frame), pd.DataFrame(evidence)
+
+
+def _other_readings(verdict: str, over: Mapping[str, Any]) -> list[str]:
+    """Whether the readings make a verdict fragile, in words."""
+    weight = over.get("weighted_share")
+    if weight is None or np.isnan(weight) or verdict == "inconclusive":
+        return []
+    otherwise = 1 - weight if verdict in ("reproduced", "partly") else weight
+    if otherwise < ENOUGH:
+        return []
+    return [f"other readings, with {otherwise:.0%} of the weight, say otherwise"]
+
+
+def evidence_of(results: Results, claims: Mapping[str, Claim]) -> list[Evidence]:
+    """The evidence for all claims."""
+    return [row for name, claim in claims.items() for row in judge(results, name, claim)]
+
+
+def verdicts_by(claims: Mapping[str, Claim], evidence: list[Evidence]) -> dict[str, Verdict]:
+    """The verdict on each claim: that of its weakest evidence."""
+    return {
+        name: weakest([row.verdict for row in evidence if row.claim == name]) for name in claims
+    }
 
 
 def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
@@ -90,7 +146,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
             else:
                 estimate = compare(results, part, cells)
                 verdict = part.verdict(estimate)
-                own = _own_values(results, part, cells)
+                own = own_values(results, part, cells)
                 says = part.says
             rows.append(
                 Evidence(
@@ -110,96 +166,53 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
                     method=estimate.method,
                     spread_low=statistics.spread(own)[0],
                     spread_high=statistics.spread(own)[1],
-                    p_value=estimate.p_value(part.threshold, part.is_lower),
                     verdict=verdict,
                     could_be_better=part.could_be_better(estimate),
+                    at_threshold=verdict != "not in this study" and part.at_threshold(estimate),
+                    diverged=_diverged(results, cells),
                     because=part.because,
                 )
             )
     return rows
 
 
-def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
-    """The estimate of a part for some cells."""
-    groups = [_among(results.counted(cell), part.among) for cell in cells]
-    match part.kind:
-        case "share_contracting":  # of made-up problems, and of no cell
-            return statistics.share(sum(map(contracts, range(PROBLEMS))), PROBLEMS)
-        case "share":
-            fulfilled = _fulfilled(groups[0], part.where)
-            return statistics.share(int(fulfilled.sum()), len(fulfilled))
-        case "difference_of_shares":
-            one, other = (list(_fulfilled(group, part.where)) for group in groups)
-            return statistics.difference_of_shares(one, other)
-        case "range_of_shares":
-            return statistics.range_of_shares(
-                [list(_fulfilled(group, part.where)) for group in groups]
-            )
-        case "share_identical":
-            digests = _paired(groups, "digest")
-            return statistics.share(int((digests[0] == digests[1]).sum()), len(digests[0]))
-    assert part.measure is not None  # noqa: S101  the claim's own check has made sure
-    match part.kind:
-        case "share_by":
-            times = [None if pd.isna(t) else float(t) for t in _column(groups[0], part.measure)]
-            horizon = float(groups[0]["steps"].iloc[0])
-            return survival.share_by(times, float(part.limit or 0), horizon)
-        case "location":
-            known = _column(groups[0], part.measure).dropna().to_numpy()
-            return statistics.LOCATIONS[part.statistic](known)
-        case "range_of_means":
-            return statistics.range_of_means(_paired(groups, part.measure))
-    x, y = _paired(groups, part.measure)
-    functions = {
-        "ratio_of_means": statistics.ratio_of_means,
-        "difference_of_means": statistics.difference_of_means,
-        "probability_greater": statistics.probability_greater,
-    }
-    return functions[part.kind](x, y)
-
-
 def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidence]) -> pd.DataFrame:
-    """One row for each claim: that of its weakest evidence, with p values adjusted by Holm."""
+    """One row for each claim: that of its weakest evidence."""
     rows: list[dict[str, Any]] = []
-    for name, claim in claims.items():
-        own = [row for row in evidence if row.claim == name]
-        verdict = weakest([row.verdict for row in own])
-        # Of the weakest comparisons the one that is worst off, by its p value and then by its distance.
+    for name, verdict in verdicts_by(claims, evidence).items():
+        claim, own = claims[name], [row for row in evidence if row.claim == name]
         decisive = max((row for row in own if row.verdict == verdict), key=_shortfall)
+        taken = decisive._asdict()
         rows.append(
             {
                 "claim": name,
                 "statement": claim.statement,
                 "section": claim.section,
+                "check": claim.check,
                 "measure": decisive.says,
-                "threshold": decisive.threshold,
-                "estimate": decisive.estimate,
-                "low": decisive.low,
-                "high": decisive.high,
-                "n": decisive.n,
-                "method": decisive.method,
-                "cells": decisive.cells,
-                "p_value": max(row.p_value for row in own),
-                "verdict": verdict,
-                "could_be_better": decisive.could_be_better,
-                "spread_low": decisive.spread_low,
-                "spread_high": decisive.spread_high,
+                **{key: taken[key] for key in OF_THE_DECISIVE},
+                "diverged": max(row.diverged for row in own),
                 "note": claim.note,
                 "parts": len(own),
                 "figure": claim.figure,
                 "recordings": _recordings(results, claim.cell),
             }
         )
-    for row, adjusted in zip(rows, statistics.holm([row["p_value"] for row in rows]), strict=True):
-        row["p_holm"] = adjusted
-    frame = pd.DataFrame(rows)
-    return frame.astype({"figure": "Int64"}) if rows else frame
+    return pd.DataFrame(rows)
 
 
-def _shortfall(row: Evidence) -> tuple[float, float]:
-    """How far a comparison is from its threshold: its p value, and, where that is 1, the distance."""
-    distance = row.holds_from - row.estimate
-    return round(row.p_value, 9), distance if row.at_least else -distance
+OF_THE_DECISIVE = (
+    "threshold", "estimate", "low", "high", "n", "method", "cells", "verdict", "could_be_better",
+    "at_threshold", "spread_low", "spread_high",
+)  # fmt: skip
+"""What a verdict's row has of the weakest comparison."""
+
+
+def _shortfall(row: Evidence) -> float:
+    """How far a comparison is from its threshold, in halves of its interval; the further, the worse."""
+    distance = (row.holds_from - row.estimate) * (1 if row.at_least else -1)
+    half = (row.high - row.low) / 2
+    return inf if np.isnan(distance) else distance / max(half, 1e-9)
 
 
 def _recordings(results: Results, cell: str | None) -> list[str]:
@@ -209,45 +222,10 @@ def _recordings(results: Results, cell: str | None) -> list[str]:
     return [str(path) for path in results.three_of(cell)["recording"]]
 
 
-def _among(runs: pd.DataFrame, conditions: Mapping[str, Bound]) -> pd.DataFrame:
-    return runs[_fulfilled(runs, conditions)] if conditions else runs
-
-
-def _fulfilled(runs: pd.DataFrame, conditions: Mapping[str, Bound]) -> pd.Series:
-    fulfilled = pd.Series(True, index=runs.index)
-    for measure, bound in conditions.items():
-        fulfilled &= _column(runs, measure).map(bound)
-    return fulfilled.astype(bool)
-
-
-def _column(runs: pd.DataFrame, measure: str) -> pd.Series:
-    if measure not in runs.columns:
-        raise BadInput([f"claims: {measure}: no measure of a run; {near(measure, runs.columns)}"])
-    if not pd.api.types.is_numeric_dtype(runs[measure]):
-        raise BadInput([f"claims: {measure}: is no number in the table of runs"])
-    return runs[measure].astype("float64")
-
-
-def _paired(groups: list[pd.DataFrame], measure: str) -> list[NDArray[Any]]:
-    """A measure of several cells, by the seeds that all of them have, in the same order."""
-    if measure != "digest":
-        for group in groups:
-            _column(group, measure)  # it is there, and a number
-    columns = [group.set_index("seed")[measure] for group in groups]
-    seeds = columns[0].index
-    for column in columns[1:]:
-        seeds = seeds.intersection(column.index)
-    if any(column.isna().any() for column in columns):
-        raise BadInput([f"claims: {measure}: some runs have none; pairs of runs need one in each"])
-    return [column.loc[seeds.sort_values()].to_numpy() for column in columns]
-
-
-def _own_values(results: Results, part: Part, cells: tuple[str, ...]) -> NDArray[Any]:
-    """The values whose spread is shown: of the first cell, the measure or what is counted."""
-    measure = part.measure or next(iter(part.where), None)
-    if not cells or measure is None:
-        return np.empty(0)
-    return _column(_among(results.counted(cells[0]), part.among), measure).dropna().to_numpy()
+def _diverged(results: Results, cells: tuple[str, ...]) -> int:
+    """How many runs of these cells diverged."""
+    known = [cell for cell in cells if cell in results.cells]
+    return sum(int(results.cell(cell)["diverged_at"].notna().sum()) for cell in known)
 
 
 def _measure(part: Part) -> str:

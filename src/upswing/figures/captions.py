@@ -12,6 +12,7 @@ ANGLE_HISTOGRAM = (
     "where the pendulum was: the darker, the more of its steps at that angle at that time; 0° is "
     "upright, ±180° hanging"
 )
+STANDS = "stands at the end (is upright for 90 % of its last 100,000 steps)"
 ORDERED_BY_UPRIGHT = (
     "runs are ordered by their share of upright steps, |φ| ≤ 20°, in the last fifth "
     "(ties: mean reward, seed)"

@@ -68,7 +68,7 @@ def draw(results: "Results") -> "Drawing":
     for axes in (success, stable):
         axes.grid(visible=False, axis="y")
     caption = (
-        "Full control. Left: the share of runs upright for 90 % of their last fifth, with its 95 % "
+        "Full control. Left: the share of runs that stand at the end, with its 95 % "
         "interval (Wilson). Right: when half of the runs had their first window of 5,000 steps that is "
         "90 % upright, with its 95 % interval (Kaplan–Meier); nothing where half of them never had one."
     )

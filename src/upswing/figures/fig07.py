@@ -20,6 +20,7 @@ def draw(results: "Results") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs beside the table's."""
     from upswing.figures import panels
     from upswing.figures.style import grid_of_panels
+    from upswing.figures.success_share import frequency
 
     run, ensemble, table = results.median_run(CELL), results.ensemble(CELL), results.ensemble(TABLE)
     figure, axes = grid_of_panels(2)
@@ -32,6 +33,7 @@ def draw(results: "Results") -> "Drawing":
         "Q-learning with three networks of 80-5-1 neurons in the balancing task, α = 1: the first "
         f"5,000 steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls "
         f"of all {len(ensemble.seeds)} runs; {ENSEMBLE}, the dashed line the median of the table with "
-        "α = 1 (figure 5)."
+        "α = 1 (figure 5). "
+        f"{frequency(results, CELL)}"
     )
     return panels.Drawing(figure, caption, [run.id])

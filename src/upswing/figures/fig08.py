@@ -26,12 +26,14 @@ FIGURE = Declaration(
 def draw(results: "Results") -> "Drawing":
     """The angle, and the upright share of all runs beside that of the controls."""
     from upswing.figures import panels
+    from upswing.figures.success_share import frequency
 
     figure, runs = panels.one_and_all(results, [(CELL, "table")], list(CONTROLS.items()))
     caption = (
         "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
         f"{ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no control and of "
-        "random actions."
+        "random actions. "
+        f"{frequency(results, CELL)}"
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

@@ -20,12 +20,14 @@ FIGURE = Declaration("Networks at full control, α = 1", "§4.6.2", ("C10",), tu
 def draw(results: "Results") -> "Drawing":
     """The angle and the upright share for each size; the thesis shows the first."""
     from upswing.figures import panels
+    from upswing.figures.success_share import frequency
 
     figure, runs = panels.one_and_all(results, list(CELLS.items()))
     count = len(results.cell(next(iter(CELLS))))
     caption = (
         "Q-learning with three networks at full control, α = 1, in the three sizes of the thesis, "
         f"which shows the first. Left: {ANGLE_HISTOGRAM}. {MEDIAN_BY_UPRIGHT}. Right: the share of "
-        f"upright steps of all {count} runs; {ENSEMBLE}."
+        f"upright steps of all {count} runs; {ENSEMBLE}. "
+        f"Of the first, {frequency(results, next(iter(CELLS)))}"
     )
     return panels.Drawing(figure, caption, [run.id for run in runs])

@@ -37,7 +37,7 @@ def draw(results: "Results") -> "Drawing":
         for row, cell in enumerate(cells):
             runs, lost = results.counted(cell), int(results.cell(cell)["diverged_at"].notna().sum())
             shade = colour(cell)
-            values = runs["falls_last_fifth"] if by_falls else 100 * runs["upright_share"]
+            values = runs["falls_last_fifth"] if by_falls else 100 * runs["upright_at_end"]
             # Seeds lie a little apart, in their order.
             apart = np.linspace(-0.28, 0.28, len(values))
             left.scatter(values, row + apart, s=4, color=shade, alpha=0.6, linewidths=0)
@@ -60,14 +60,13 @@ def draw(results: "Results") -> "Drawing":
             right.set_title("Runs without a fall in the last fifth [%]")
         else:
             left.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
-            left.set_xlabel("upright in the last fifth [% of steps]")
-            right.set_title(f"Runs upright for {SUCCESS:.0%} of it [%]")
+            left.set_xlabel("upright in the last 100,000 steps [%]")
+            right.set_title(f"Runs upright for {SUCCESS:.0%} of them [%]")
         for axes in (left, right):
             axes.grid(visible=False, axis="y")
-    runs_of_a_cell = len(results.cell(next(iter(results.cells))))
     caption = (
-        f"Each row is a cell with {runs_of_a_cell} runs. Left: every run as a dot, its seeds from top "
-        "to bottom. Right: the share of runs that balance without a fall in their last fifth, or are "
-        f"upright for {SUCCESS:.0%} of it; the bar is its 95 % interval (Wilson)."
+        "Each row is a cell. Left: every run as a dot, its seeds from top to bottom. Right: the share "
+        "of runs that balance without a fall in their last fifth, or stand at the end (are upright for "
+        f"{SUCCESS:.0%} of their last 100,000 steps); the bar is its 95 % interval (Wilson)."
     )
     return panels.Drawing(figure, caption, [])

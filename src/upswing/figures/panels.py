@@ -13,6 +13,7 @@ from upswing.analysis.colours import colour
 from upswing.figures.style import grid_of_panels, stack_and_panel
 from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
 from upswing.runs.results import Ensemble, OneRun, Real, Results
+from upswing.runs.success import succeeds
 
 POINTS = 200
 """Approximate number of points of an ensemble's line."""
@@ -153,9 +154,13 @@ def _three_and_all(
     """Where the worst, the median and the best run of a cell were, and the upright share of all."""
     figure, (stack, right) = stack_and_panel(3)
     shown = results.worst_median_best(cell[0])
-    for axes, rank, run in zip(stack, ("Worst", "Median", "Best"), shown, strict=True):
+    stand = succeeds(results.three_of(cell[0]), results.task(cell[0]))
+    for axes, rank, run, stands in zip(
+        stack, ("Worst", "Median", "Best"), shown, stand, strict=True
+    ):
         angle_histogram(axes, run, cell[0])
-        axes.set_title(f"{rank} run (seed {run.seed})")
+        ends = "stands at the end" if stands else "does not stand at the end"
+        axes.set_title(f"{rank} run (seed {run.seed}): {ends}")
         if axes is not stack[-1]:
             axes.tick_params(labelbottom=False)
             axes.set_xlabel("")

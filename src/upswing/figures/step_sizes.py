@@ -50,7 +50,7 @@ def draw(results: "Results") -> "Drawing":
         criterion = (
             "without a fall in the last fifth"
             if results.study.tasks[task].judged_by == "falls"
-            else f"upright for {SUCCESS:.0%} of the last fifth"
+            else "that stand at the end"
         )
         panel.set_title(f"{task}: runs {criterion} [%]")
         panels.label_ends(panel, ends)
@@ -59,6 +59,6 @@ def draw(results: "Results") -> "Drawing":
     caption = (
         "The share of runs that succeed, with its 95 % interval (Wilson), over the step size α: "
         "balancing without a fall in the last fifth, or full control upright for "
-        f"{SUCCESS:.0%} of it. Architectures stand a little apart."
+        f"{SUCCESS:.0%} of the last 100,000 steps. Architectures stand a little apart."
     )
     return panels.Drawing(figure, caption, [])

@@ -1,6 +1,5 @@
 """The page: what each part of the template is given."""
 
-import base64
 import json
 from collections import Counter
 from pathlib import Path
@@ -11,19 +10,16 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
-from upswing.analysis.robustness.tables import (
-    OF_A_CAUSE,
-    OF_A_READING,
-    OF_A_SELECTION,
-    OF_A_SUMMARY,
-    REMEDY,
-)
 from upswing.physics.pendulum import Pendulum
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.chapter import chapter
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
+from upswing.report.pictures import picture
+from upswing.report.readings_shown import over_readings, rows, swept
+from upswing.report.registered import registered
 from upswing.report.scale import strip
+from upswing.report.solving import solving
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.provenance import provenance
@@ -31,30 +27,21 @@ from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read
 from upswing.runs.files.typed_table import Columns, read_table
 from upswing.runs.study_file import read_study
 from upswing.study import paths
-from upswing.study.claims import WEAKEST_FIRST
-from upswing.study.config import Study
+from upswing.study.claim_parts import WEAKEST_FIRST
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 from upswing.study.paths import (
     BENCHMARK,
-    DECISIVE,
     EDITS,
     EVIDENCE,
     EVIDENCE_CSV,
     GROWTH,
     PAGE,
-    READINGS,
-    ROBUST,
     RUNS_CSV,
-    SELECTION,
 )
 from upswing.study.readings import Readings
 from upswing.study.yaml_file import read_yaml
-
-SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
-CAUSES, LIKELIEST = 3, 8
-"""Number of readings shown: of those that decide a claim, and of the most likely ones."""
 
 Row = dict[str, Any]
 
@@ -62,7 +49,7 @@ OF_A_SHOWN_RUN: Columns = {
     "task": "text", "architecture": "text", "alpha": "number", "seconds": "number",
     "steps_per_second": "number", "falls": "number", "falls_last_fifth": "number",
     "upright_share": "number", "above_horizontal_share": "number", "mean_reward": "number",
-    "first_stable_step": "whole?", "greedy_success_share": "number",
+    "first_stable_step": "whole?", "greedy_success_share": "number", "upright_at_end": "number",
 }  # fmt: skip
 """What the page shows of each run, besides which it is."""
 
@@ -83,23 +70,29 @@ def write_report(results: Path, templates: Path) -> None:
     matrix = Matrix(study)
     evidence = read_evidence(results)
     verdicts = _verdicts(results, evidence)
-    cells = _rows(read_cells(results, matrix.cells))
+    cells = rows(read_cells(results, matrix.cells))
     table = read_runs(results, list(matrix.runs), OF_A_SHOWN_RUN)
-    runs = _rows(table)
+    runs = rows(table)
+    sizes = sorted({len(spec.seeds) for spec in matrix.cells.values()})
     shown = {
         "study": study,
+        "seeds_of_a_cell": f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0]),
+        "solving": solving(table, matrix),
+        "registered": registered(results, study),
+        "over": over_readings(results, templates, verdicts),
         "body": Pendulum(),
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": {row["cell"]: row for row in cells},
         "runs": runs,
         "verdicts": verdicts,
-        "counts": _counts(verdicts),
+        "counts": _counts([row for row in verdicts if not row["check"]]),
+        "checks": [row for row in verdicts if row["check"]],
         "figures": {figure["name"]: figure for figure in _figures(results)},
         "own_figures": [name for name in study.figures if name not in figures.NAMES],
         "beyond": _beyond(results),
         "readings": _readings(study.readings),
-        "swept": _swept(results, study),
+        "swept": swept(results, study),
         "deviations": read_yaml(templates / "deviations.yaml")["deviations"],
         "costs": costs(results),
         "totals": totals(results, sum(row["seconds"] for row in runs)),
@@ -131,19 +124,15 @@ def _own(path: Path) -> Markup:
     return Markup(path.read_text("utf-8"))  # noqa: S704
 
 
-def _rows(frame: pd.DataFrame) -> list[Row]:
-    return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
-
-
 def _optional(path: Path, columns: Columns, remedy: str) -> list[Row]:
     """The rows of a table that need not be there."""
-    return _rows(read_table(path, columns, remedy)) if path.exists() else []
+    return rows(read_table(path, columns, remedy)) if path.exists() else []
 
 
 def _verdicts(results: Path, comparisons: pd.DataFrame) -> list[Row]:
     """Each verdict with its evidence, and each comparison with its strip."""
-    evidence = _rows(comparisons)
-    verdicts = _rows(read_verdicts(results))
+    evidence = rows(comparisons)
+    verdicts = rows(read_verdicts(results))
     for row in evidence:
         row["strip"] = strip(row)
     for verdict in verdicts:
@@ -200,8 +189,8 @@ def _figures(results: Path) -> list[Row]:
         page: Row = {"name": name, **declared._asdict(), "missing": True}
         words = results / paths.figure(name, "json")
         if words.exists():
-            picture = _picture(results / paths.figure(name, "svg"))
-            page |= {**json.loads(words.read_text("utf-8")), "picture": picture, "missing": False}
+            drawn = picture(results / paths.figure(name, "svg"))
+            page |= {**json.loads(words.read_text("utf-8")), "picture": drawn, "missing": False}
         pages.append(page)
     return pages
 
@@ -212,50 +201,6 @@ def _beyond(results: Path) -> Row:
     if found["folder"] is not None:
         found["figures"] = {figure["name"]: figure for figure in _figures(found["folder"])}
     return found
-
-
-def _swept(results: Path, study: Study) -> Row:
-    """What the sweeps over readings came to; empty if they were not run."""
-    if not (results / ROBUST).exists():
-        return {"robust": []}
-    decisive = _rows(read_table(results / DECISIVE, OF_A_CAUSE, REMEDY, empty=True))
-    robust = _rows(read_table(results / ROBUST, OF_A_SUMMARY, REMEDY))
-    selection = _optional(results / SELECTION, OF_A_SELECTION, REMEDY)
-    judged = read_table(results / READINGS, OF_A_READING, REMEDY)
-    return {
-        "robust": robust,
-        "seeds": int(judged["n"].max()),
-        "decisive": {
-            row["claim"]: [cause for cause in decisive if cause["claim"] == row["claim"]][:CAUSES]
-            for row in robust
-        },
-        "pictures": [
-            {"name": name, "data": _picture(results / paths.figure_of_sweep(name, "svg"))}
-            for name in judged["sweep"].unique()
-            if (results / paths.figure_of_sweep(name, "svg")).is_file()
-        ],
-        "judged": {row["claim"]: row for row in robust},
-        "turning": {claim: _turning(judged, claim) for claim in ("C8", "C9")},
-        "selection": selection[:LIKELIEST],
-        "chosen_first": bool(selection)
-        and all(getattr(study.readings, name) == selection[0][name] for name in SELECTED),
-        "selected_of": len(selection),
-    }
-
-
-def _turning(judged: pd.DataFrame, claim: str) -> list[str]:
-    """The readings that alone make a claim hold, by its estimates, that does not under the study's."""
-    own = judged[judged["claim"] == claim]
-    default = own.loc[own["is_default"], "estimate_holds"]
-    if own.empty or default.empty or bool(default.iloc[0]):
-        return []
-    alone = own[own["readings"].map(lambda text: len(json.loads(text)) == 1)]
-    return [str(label) for label in alone.loc[alone["estimate_holds"], "label"]]
-
-
-def _picture(path: Path) -> str:
-    """A picture as an address that holds all of it."""
-    return f"data:image/svg+xml;base64,{base64.b64encode(path.read_bytes()).decode()}"
 
 
 def _readings(readings: Readings) -> list[Row]:

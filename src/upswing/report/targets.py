@@ -32,6 +32,7 @@ from upswing.study.paths import (
     SELECTION,
     SHORTEST,
     STUDY,
+    TILES,
     VERDICTS,
     VIEWER_PAGE,
     comparison,
@@ -45,6 +46,9 @@ from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
 
+READINGS_SHIPPED = "readings.json"
+"""Among the templates: how the claims do over readings, for a study that has not swept them."""
+
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
 ASKING_FOR_READINGS = ("readings", "with_readings")
@@ -56,7 +60,7 @@ SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
 CHAPTER = (CHANGES, BOUND, CHOSEN, figure("bound", "svg"), figure("changes", "svg"))
 """What the page shows of the chapter beyond the thesis, once that has been run."""
 
-TEMPLATES = ("*.j2", "*.css", "*.js", "*.yaml", "parts/*", "drawings/*")
+TEMPLATES = ("*.j2", "*.css", "*.js", "*.yaml", "*.json", "parts/*", "drawings/*")
 
 
 def templates(folder: Path) -> list[str]:
@@ -162,7 +166,7 @@ class Targets:
         """What follows training and takes seconds: made again where nobody knows how it was made."""
         changes = self._below(CHANGES) if self.changes else []
         return [
-            *self._below(STUDY, VIEWER_PAGE),
+            *self._below(STUDY, TILES, VIEWER_PAGE),
             *self.tables,
             *self.comparisons,
             *self.pictures(*PICTURE),
@@ -212,7 +216,7 @@ class Targets:
             *(
                 file_of(self.matrix.cells[cell].run(block.seeds[0]), KNOWN_FILE)
                 for cell in cells
-                for block in self.matrix.blocks
+                for block in self.matrix.blocks_of(self.matrix.cells[cell])
             )
         )
 
@@ -250,6 +254,15 @@ class Targets:
     def reports_of_sweep(self, name: str) -> str:
         """What says which readings go on, as one line."""
         return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
+
+    def weighed(self, asked: Collection[str]) -> list[str]:
+        """What says how the claims do over readings: the study's own sweeps, or what is shipped."""
+        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+        (own,) = self._below(ROBUST)
+        if (coming and own in self.readings) or Path(own).exists():
+            return [own]
+        shipped = Path("report", READINGS_SHIPPED)
+        return [str(shipped)] if shipped.exists() else []
 
     def content_of_sweep(self, job: str) -> str:
         """What the result of a job of the sweeps depends on besides the code, as a checksum."""

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.study.claims import words_of
+from upswing.study.claim_parts import words_of
 from upswing.study.ids import recording_id, run_of
 from upswing.study.names import alpha_text
 
@@ -51,7 +51,23 @@ def recording(run: str) -> str:
     return recording_id(run_of(run))
 
 
+def over_readings(row: dict[str, Any]) -> str:
+    """How a claim does over readings, in a few words; a dash where they have not been asked."""
+    if pd.isna(row["weighted_share"]):
+        return UNKNOWN
+    return f"{row['grade']} ({number(row['weighted_share'], 2)})"
+
+
 FILTERS = {
     function.__name__: function
-    for function in (number, percent, spread, interval, alpha, verdict, recording)
+    for function in (
+        number,
+        percent,
+        spread,
+        interval,
+        alpha,
+        verdict,
+        recording,
+        over_readings,
+    )
 }

@@ -5,6 +5,7 @@ The *last fifth* is the last 20 % of the steps; *upright* is |φ| ≤ 20°, *abo
 """
 
 from math import copysign, floor, nan, pi, radians
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,9 @@ late can reach it; or its last fifth, if that is shorter [steps]."""
 
 WINDOWS = 1_000
 """Into how many windows a run is divided, at most."""
+
+WHOLE = ("falls", "swing_ups", "too_fast", "excursions", "recovered")
+"""What is counted in a window."""
 
 NOTHING_LEARNED = copysign(nan, -1.0)
 """A mean over no steps: the NaN that x86 makes of 0/0. A run's digest holds it, so it is fixed to the
@@ -83,13 +87,13 @@ def in_windows(trajectory: Trajectory, too_fast: float) -> Windows:
     length = -(-steps // WINDOWS)
     count = -(-steps // length)
     first_step = np.arange(count, dtype=np.int64) * length
-    windows = Windows(
-        first_step,
-        np.minimum(first_step + length, steps) - first_step,
-        np.zeros(count, dtype=np.int64),
-        *(np.zeros(count) for _ in range(7)),
-        *(np.zeros(count, dtype=np.int64) for _ in range(4)),
-    )
+    columns: dict[str, Any] = {
+        name: np.zeros(count, dtype=np.int64 if name in WHOLE else np.float64)
+        for name in Windows._fields
+    }
+    columns["first_step"] = first_step
+    columns["steps"] = np.minimum(first_step + length, steps) - first_step
+    windows = Windows(**columns)
     _fill(trajectory, windows)
     _count(trajectory, windows, too_fast)
     return windows

@@ -48,8 +48,8 @@ def restore(results: str, matrix: Matrix, quick: Sequence[str], slow: Sequence[s
     unknown = [path for path in slow if Path(path).exists() and records.params(path) is None]
     for path in unknown:
         records.forget(path)
-    for cell in matrix.cells:
-        for block in matrix.blocks:
+    for cell, spec in matrix.cells.items():
+        for block in matrix.blocks_of(spec):
             job = matrix.job(cell, block)
             unknown += _restore_job(results, f"train_{block.name}", job, records)
     return unknown

@@ -18,7 +18,7 @@ from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of, file_of
 from upswing.study.matrix import Matrix
-from upswing.study.paths import RUNS
+from upswing.study.paths import RUNS, TILES
 from upswing.study.spec import Spec
 from upswing.study.task import NamedTask
 
@@ -92,6 +92,12 @@ class Results:
         ]:
             raise BadInput(incomplete)
         return frame
+
+    @cached_property
+    def tile_policy(self) -> pd.DataFrame:
+        """What a policy on the thesis's tiles came to, a row for each start."""
+        remedy = f"`upswing tiles {self.folder}` makes it"
+        return read_table(self.folder / TILES, {"angle": "number", "success": "truth"}, remedy)
 
     def check_complete(self, cells: Collection[str]) -> None:
         """Raise ``BadInput`` if a run of ``cells``, or what shows it, is missing; it names the cells."""

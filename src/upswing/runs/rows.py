@@ -39,7 +39,8 @@ def collected(results: Path, cells: Iterable[Spec]) -> pd.DataFrame:
 
 def framed(rows: Iterable[dict[str, Any]]) -> pd.DataFrame:
     """Rows of runs as a table."""
-    return pd.DataFrame(list(rows)).astype(NULLABLE)
+    frame = pd.DataFrame(list(rows))
+    return frame.astype({name: kind for name, kind in NULLABLE.items() if name in frame})
 
 
 def row_of(cell: Spec, seed: int, found: dict[str, Any]) -> dict[str, Any]:

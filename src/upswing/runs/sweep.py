@@ -5,13 +5,12 @@ import time
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.runs.files.ledger import seal
-from upswing.runs.files.tables import NULLABLE, OF_A_RUN, write_table
+from upswing.runs.files.tables import OF_A_RUN, write_table
 from upswing.runs.files.typed_table import Columns
 from upswing.runs.outcome import outcome_of
+from upswing.runs.rows import framed
 from upswing.runs.simulation import prepare
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
@@ -59,7 +58,7 @@ def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str
         print(f"{label(overrides)}: {len(rows) - before} runs in {took:.1f} s", flush=True)
     path = path_of(results, name, group)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_table(path, pd.DataFrame(rows).astype(NULLABLE))
+    write_table(path, framed(rows))
     seal(results, f"readings/{name}/{group}", [path])
     return path
 

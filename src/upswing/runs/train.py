@@ -13,6 +13,7 @@ import numpy as np
 from safetensors.numpy import save
 
 from upswing.physics.environment import Trajectory, empty_trajectory
+from upswing.runs.endings import endings
 from upswing.runs.files.atomic import written
 from upswing.runs.files.checksums import checksum
 from upswing.runs.files.ledger import ledger_of_run, ledger_path, seal
@@ -133,6 +134,7 @@ def _store(spec: Spec, seed: int, run: Run, results: Path) -> Measures:
     }
     outcome: dict[str, Any] = {
         **row,
+        **endings(windows),
         "seconds": run.seconds,
         "steps_per_second": measures.steps / run.seconds,
     }

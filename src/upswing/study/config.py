@@ -38,6 +38,9 @@ class Experiment(Strict):
     alphas: Annotated[tuple[Alpha, ...], BeforeValidator(listed), once] = Field(
         default=(), description="Step sizes α in (0, 1]; none for controls."
     )
+    seeds: Seeds | None = Field(
+        default=None, description="The seeds of these cells, where they are not the study's."
+    )
     title: Text = Field(
         default="",
         max_length=100,
@@ -78,7 +81,9 @@ class Study(Strict):
     results: Annotated[str, AfterValidator(_folder)] = Field(
         default="results", min_length=1, max_length=1_000, description="Folder of the results."
     )
-    seeds: Seeds = Field(description="How many seeds a cell has (0, 1, …), or a list of them.")
+    seeds: Seeds = Field(
+        description="How many seeds a cell has (0, 1, …), a list of them, or `first` and `count`."
+    )
     seeds_per_job: Annotated[int, Field(ge=1, le=1000)] = Field(
         default=30, description="Number of runs that share one job; more seeds then only add jobs."
     )
@@ -167,7 +172,8 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
                         yield problem(
                             source, place, f"{task}/{name}/alpha-{alpha_text(alpha)}", right
                         )
-    if (runs := len(cells) * len(study.seeds)) > MOST_RUNS:
+    own = [study.experiments[number].seeds or study.seeds for number in cells.values()]
+    if (runs := sum(map(len, own))) > MOST_RUNS:
         right = f"{len(cells)} cells come to {runs:,} runs; a study has at most {MOST_RUNS:,}"
         yield problem(source, "seeds", len(study.seeds), right)
 
@@ -182,7 +188,8 @@ def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:
         known = [name for name, one in study.tasks.items() if one.judged_by == "upright"]
         right = f"must be a task of full control; {near(search.task, known or ['none'])}"
         yield problem(source, "search.task", search.task, right)
-    if both := sorted(set(search.seeds) & set(study.seeds)):
+    reported = {*study.seeds, *(seed for one in study.experiments for seed in one.seeds or ())}
+    if both := sorted(set(search.seeds) & reported):
         right = "cells are reported on these seeds; what is chosen must be chosen on others"
         yield problem(source, "search.seeds", both[:5], right)
     for number, candidates in enumerate(search.candidates):

@@ -41,6 +41,12 @@ def bound() -> Code:
     return learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
 
 
+def tiles() -> Code:
+    """The code that looks for a policy on the thesis's tiles; it begins with a table that learned."""
+    table = architecture_of(learner="table")
+    return learning("upswing.optimal.represented", used=product([table], ["full-control"]))
+
+
 def figure(name: str) -> Code:
     """The code that draws a figure."""
     return Code(("upswing.figures", module_of("figures", name)), ("matplotlib",))
@@ -52,7 +58,7 @@ def page(figures: Iterable[str]) -> Code:
 
 
 TABLES = Code(("upswing.analysis.aggregate", "upswing.runs.study_file"), ())
-VERDICTS = Code(("upswing.analysis.verdicts",), ("scipy",))
+VERDICTS = Code(("upswing.analysis.verdicts", "upswing.analysis.robustness.shipped"), ("scipy",))
 CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
     ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")

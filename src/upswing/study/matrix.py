@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import groupby, product
 from pathlib import Path
 
@@ -15,15 +15,17 @@ from upswing.study.task import task_named
 
 @dataclass(frozen=True)
 class Block:
-    """Seeds that share a job in every cell."""
+    """Seeds that share a job, in every cell that has all of them and no other of their number."""
 
     number: int
     seeds: tuple[int, ...]
 
     @property
     def name(self) -> str:
-        """The block by its seeds: ``seeds_0_to_29``."""
-        return f"seeds_{self.seeds[0]}_to_{self.seeds[-1]}"
+        """The block by its seeds: ``seeds_0_to_29``, or with gaps ``seeds_0_to_29_of_which_12``."""
+        first, last, count = self.seeds[0], self.seeds[-1], len(self.seeds)
+        gaps = "" if count == last - first + 1 else f"_of_which_{count}"
+        return f"seeds_{first}_to_{last}{gaps}"
 
 
 @dataclass(frozen=True)
@@ -38,11 +40,17 @@ class Matrix:
         return {spec.cell: spec for spec in self._specs()}
 
     @cached_property
-    def blocks(self) -> list[Block]:
-        """The seeds in blocks of fixed borders, so that more seeds add blocks and change none."""
-        size = self.study.seeds_per_job
-        groups = groupby(sorted(self.study.seeds), key=lambda seed: seed // size)
-        return [Block(number, tuple(seeds)) for number, seeds in groups]
+    def blocks(self) -> dict[Block, list[str]]:
+        """Every block, in the order of its number, with the cells that have it."""
+        cells: dict[Block, list[str]] = {}
+        for cell, spec in self.cells.items():
+            for block in self.blocks_of(spec):
+                cells.setdefault(block, []).append(cell)
+        return dict(sorted(cells.items(), key=lambda pair: (pair[0].number, pair[0].seeds)))
+
+    def blocks_of(self, spec: Spec) -> list[Block]:
+        """A cell's seeds in blocks of fixed borders, so that more seeds add blocks and change none."""
+        return _blocks(spec.seeds, self.study.seeds_per_job)
 
     def job(self, cell: str, block: Block) -> Spec:
         """The specification of a cell's job for a block of seeds."""
@@ -65,7 +73,7 @@ class Matrix:
         for spec in self.cells.values():
             folder = (results / file_of(spec.run(spec.seeds[0]), KNOWN_FILE)).parent
             there = {path.name for path in folder.iterdir()} if folder.is_dir() else set[str]()
-            for block in self.blocks:
+            for block in self.blocks_of(spec):
                 files = [file_of(spec.run(seed), KNOWN_FILE) for seed in block.seeds]
                 missing = (file for file in files if file.rpartition("/")[2] not in there)
                 yield f"{results}/{next(missing, files[0])}"
@@ -89,7 +97,18 @@ class Matrix:
     def _specs(self) -> Iterator[Spec]:
         for experiment in self.study.experiments:
             for task, name, alpha in _combinations(experiment):
-                yield self.spec(task, name, alpha, self.study.seeds)
+                yield self.spec(task, name, alpha, seeds_of(experiment, self.study))
+
+
+@cache
+def _blocks(seeds: tuple[int, ...], size: int) -> list[Block]:
+    groups = groupby(sorted(seeds), key=lambda seed: seed // size)
+    return [Block(number, tuple(own)) for number, own in groups]
+
+
+def seeds_of(experiment: Experiment, study: Study) -> tuple[int, ...]:
+    """The seeds of an experiment's cells: its own, or the study's."""
+    return study.seeds if experiment.seeds is None else experiment.seeds
 
 
 def cells_of(experiment: Experiment) -> list[str]:

@@ -10,6 +10,9 @@ CELLS = "tables/cells.parquet"
 VERDICTS = "tables/verdicts.parquet"
 EVIDENCE = "tables/evidence.parquet"
 
+TILES = "tables/tiles.parquet"
+"""What a policy on the thesis's tiles can do, start by start (C9)."""
+
 SELECTION = "tables/selection.parquet"
 READINGS = "tables/readings.parquet"
 DECISIVE = "tables/decisive.parquet"

@@ -35,6 +35,8 @@ def listed(value: Any) -> Any:
 
 
 def _counted(value: Any) -> Any:
+    if isinstance(value, dict):
+        return _counted_from(value)
     if isinstance(value, int) and not isinstance(value, bool):
         if value < 1:
             raise ValueError("write how many seeds there are, 1 or more, or list them")
@@ -42,6 +44,17 @@ def _counted(value: Any) -> Any:
             raise ValueError(f"a study has at most {MOST_RUNS:,} runs")
         return tuple(range(value))
     return listed(value)
+
+
+def _counted_from(value: dict[str, Any]) -> tuple[int, ...]:
+    first, count = value.get("first"), value.get("count")
+    if set(value) != {"first", "count"} or type(first) is not int or type(count) is not int:
+        raise ValueError("write {first: 10000, count: 30}")
+    if first < 0 or not 1 <= count <= MOST_RUNS or first + count - 1 > LARGEST_SEED:
+        raise ValueError(
+            f"seeds lie between 0 and {LARGEST_SEED}, and a study has at most {MOST_RUNS:,} runs"
+        )
+    return tuple(range(first, first + count))
 
 
 once = AfterValidator(_no_value_twice)
@@ -68,6 +81,15 @@ Seeds = Annotated[
         {
             "anyOf": [
                 {"type": "integer", "minimum": 1},
+                {
+                    "type": "object",
+                    "properties": {
+                        "first": {"type": "integer", "minimum": 0, "maximum": LARGEST_SEED},
+                        "count": {"type": "integer", "minimum": 1, "maximum": MOST_RUNS},
+                    },
+                    "required": ["first", "count"],
+                    "additionalProperties": False,
+                },
                 {
                     "type": "array",
                     "items": {"type": "integer", "minimum": 0, "maximum": LARGEST_SEED},

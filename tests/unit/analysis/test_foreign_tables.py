@@ -25,7 +25,7 @@ from upswing.runs.files.tables import JUDGED
 from upswing.runs.files.typed_table import read_table
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import OF_A_SWEPT_RUN, path_of
-from upswing.study.claims import Verdict
+from upswing.study.claim_parts import Verdict
 from upswing.study.errors import BadInput
 from upswing.study.paths import (
     BENCHMARK,

@@ -7,7 +7,8 @@ from tests.made_up import FROM, NOISE, ONE, OTHER, THIRD, UP_TO, ZERO, N, made_u
 from upswing.analysis.verdicts import judge, write_verdicts
 from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
-from upswing.study.claims import Claim, weakest
+from upswing.study.claim_parts import weakest
+from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
 from upswing.study.paths import RUNS
 

@@ -1,4 +1,4 @@
-"""The two controls: no learning, always the same way of acting (C7)."""
+"""The controls: no learning, always the same way of acting (C7)."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Literal, NamedTuple
@@ -17,14 +17,17 @@ class Options(architecture.Architecture):
     """What it does."""
 
     learns: ClassVar[bool] = False
-    behaviour: Literal["idle", "random"] = Field(
-        description="What a control does: always 0, or any action."
+    behaviour: Literal["idle", "random", "push"] = Field(
+        description="What a control does: always 0, any action, or always the last one."
     )
 
     def in_words(self) -> str:
         """For a reader of the page."""
-        idle = self.behaviour == "idle"
-        return "no control: the cart never moves" if idle else "every action at random"
+        return {
+            "idle": "no control: the cart never moves",
+            "random": "every action at random",
+            "push": "the cart is pushed one way for ever",
+        }[self.behaviour]
 
     def check(self) -> None:
         """Nothing is learned, by one or by two."""
@@ -49,11 +52,12 @@ def _update(control: Control, place: Any, action: int, error: float) -> None:
 
 
 class ControlLearner:
-    """`idle` never accelerates the cart; `random` takes every action equally often."""
+    """`idle` never accelerates the cart; `random` takes every action equally often; `push` the last."""
 
     def __init__(self, behaviour: str) -> None:
-        self.epsilon = {"idle": 0.0, "random": 1.0}[behaviour]
-        self.stepped = Control(-np.abs(np.array(ACCELERATIONS)))
+        self.epsilon = 1.0 if behaviour == "random" else 0.0
+        accelerations = np.array(ACCELERATIONS)
+        self.stepped = Control(accelerations if behaviour == "push" else -np.abs(accelerations))
 
     @property
     def learned(self) -> Mapping[str, NDArray[Any]]:

@@ -9,12 +9,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from upswing.analysis.verdicts import judge, sum_up
+from upswing.analysis.posterior import probability
+from upswing.analysis.robustness.selection import counts
+from upswing.analysis.robustness.weighing import grade, weigh
+from upswing.analysis.verdicts import evidence_of, sum_up
 from upswing.runs.results import Results
 from upswing.study.claims import Claim
 from upswing.study.config import Study
+from upswing.study.matrix import Matrix
 from upswing.study.spec import Spec
-from upswing.study.sweeps import Sweep, label, number_of, specs
+from upswing.study.sweeps import Sweep, canonical_of, label, number_of, specs
 
 HOLDS = ("reproduced", "partly")
 """Verdicts under which a claim holds, at least partly."""
@@ -28,10 +32,12 @@ Row = dict[str, Any]
 class Swept(Results):
     """The runs of a sweep under one reading, read as if they were the results of a study."""
 
-    def __init__(self, study: Study, cells: Mapping[str, Spec], runs: pd.DataFrame) -> None:
+    def __init__(
+        self, study: Study, cells: Mapping[str, Spec], runs: pd.DataFrame, tiles: pd.DataFrame
+    ) -> None:
         super().__init__(Path())
         # What a folder of results would be asked for.
-        self.__dict__.update(study=study, cells=cells, runs=runs)
+        self.__dict__.update(study=study, cells=cells, runs=runs, tile_policy=tiles)
 
 
 def robustness(
@@ -39,29 +45,35 @@ def robustness(
     study: Study,
     claims: Mapping[str, Claim],
     runs: Mapping[str, pd.DataFrame],
+    tiles: pd.DataFrame,
 ) -> pd.DataFrame:
     """One row for each reading and claim: estimate, interval and verdict.
 
     Args:
-        sweeps: all sweeps by name; the selection judges nothing.
+        sweeps: all sweeps by name.
         study: whose readings are varied.
         claims: all claims; each is judged in the sweep that varies most of what can touch it.
         runs: the rows of each sweep.
+        tiles: what a policy on the tiles came to, which no reading changes.
 
     Returns:
         Columns ``sweep``, ``readings`` (JSON), ``label``, a column for each varied reading, ``claim``,
         ``measure``, ``threshold``, ``estimate``, ``low``, ``high``, ``n``, ``verdict``,
         ``could_be_better``, ``holds`` (by its interval, at least partly), ``estimate_holds`` (every
-        estimate reaches its threshold, however sure) and ``is_default``.
+        estimate reaches its threshold, however sure), ``probability`` (that all of it holds, given the
+        runs) and ``is_default``.
     """
     rows: list[Row] = []
     for name, sweep in sweeps.items():
         own = {
             key: claim for key, claim in claims.items() if sweep_of(claim, sweeps, study) == name
         }
-        for text, under in runs[name].groupby("readings", sort=False):
+        is_beside = runs[name]["cell"].isin(sweep.beside)
+        beside = runs[name][is_beside]
+        for text, under in runs[name][~is_beside].groupby("readings", sort=False):
             overrides = json.loads(str(text))
-            rows += _judged(name, sweep, study, own, overrides, under)
+            there = pd.concat([under, beside], ignore_index=True)
+            rows += _judged(name, sweep, study, own, overrides, there, tiles)
     return pd.DataFrame(rows)
 
 
@@ -87,10 +99,13 @@ def _judged(
     claims: Mapping[str, Claim],
     overrides: Row,
     runs: pd.DataFrame,
+    tiles: pd.DataFrame,
 ) -> Iterator[Row]:
-    cells = {spec.cell: spec for spec in specs(sweep, study, overrides)}
+    there, known = set(runs["cell"]), Matrix(study).cells
+    cells = {cell: known[cell] for cell in sweep.beside}
+    cells |= {spec.cell: spec for spec in specs(sweep, study, overrides) if spec.cell in there}
     readings = study.readings.model_copy(update=overrides)
-    swept = Swept(study.model_copy(update={"readings": readings}), cells, runs)
+    swept = Swept(study.model_copy(update={"readings": readings}), cells, runs, tiles)
     asked = {
         key: claim
         for key, claim in claims.items()
@@ -98,13 +113,11 @@ def _judged(
             cell in cells for part in claim.parts for group in part.comparisons for cell in group
         )
     }
-    if not asked:
-        return
-    evidence = [row for key, claim in asked.items() for row in judge(swept, key, claim)]
+    evidence = evidence_of(swept, asked)
     for verdict in sum_up(swept, asked, evidence).to_dict("records"):
         yield {
             "sweep": name,
-            "readings": json.dumps(overrides, sort_keys=True),
+            "readings": canonical_of(overrides),
             "label": label(overrides),
             **{reading: _option(getattr(readings, reading)) for reading in sweep.vary},
             **{
@@ -120,6 +133,7 @@ def _judged(
                 for row in evidence
                 if row.claim == verdict["claim"]
             ),
+            "probability": probability(swept, asked[verdict["claim"]]),
             "is_default": readings == study.readings,
         }  # fmt: skip
 
@@ -212,16 +226,34 @@ def _of_changes(of: pd.DataFrame, sweep: Sweep) -> Iterator[Row]:
             }
 
 
-def summary(judged: pd.DataFrame) -> pd.DataFrame:
-    """One row a claim: under how many readings it holds, and the verdicts it gets.
+def summary(
+    judged: pd.DataFrame,
+    sweeps: Mapping[str, Sweep],
+    claims: Mapping[str, Claim],
+    runs: Mapping[str, pd.DataFrame],
+) -> pd.DataFrame:
+    """One row a claim: under how many readings it holds, and how probable it is over all of them.
 
-    Columns ``claim``, ``sweep``, ``readings``, ``holds`` and ``estimate_holds`` (how many), ``default``
-    (the verdict under the default, with the sweep's seeds), ``seeds``, and one for each verdict.
+    Columns ``claim``, ``sweep``, ``readings`` (how many), ``holds`` and ``estimate_holds`` (how many of
+    them), ``default`` (the verdict under the default, with the sweep's seeds), one for each verdict;
+    ``held_share`` (of the readings: under how many it is more probable than not), ``weighted_share``
+    with ``weighted_low`` and ``weighted_high`` (``weighing``), ``grade``, ``left_out`` (reports about
+    its own cells) and ``by_prior`` (the weighted share under other priors, in words).
     """
     rows = []
+    counted = {name: counts(runs[name], sweep.reports) for name, sweep in sweeps.items()}
     for (claim, name), of in judged.groupby(["claim", "sweep"], sort=False):
-        counts = of["verdict"].value_counts()
+        verdicts = of["verdict"].value_counts()
         chosen = of.loc[of["is_default"], "verdict"]
+        probabilities = of["probability"].to_numpy(float)
+        weighed = weigh(
+            sweeps[str(name)],
+            claims[str(claim)],
+            [json.loads(text) for text in of["readings"]],
+            probabilities,
+            [counted[str(name)].get(text, {}) for text in of["readings"]],
+        )
+        others = (f"{prior}: {share:.2f}" for prior, share in weighed.by_prior.items())
         rows.append(
             {
                 "claim": claim,
@@ -231,9 +263,16 @@ def summary(judged: pd.DataFrame) -> pd.DataFrame:
                 "estimate_holds": int(of["estimate_holds"].sum()),
                 "default": chosen.iloc[0] if len(chosen) else "",
                 **{
-                    verdict: int(counts.get(verdict, 0))
+                    verdict: int(verdicts.get(verdict, 0))
                     for verdict in ("reproduced", "partly", "inconclusive", "not reproduced")
                 },
+                "held_share": float((probabilities >= 0.5).mean()),
+                "weighted_share": weighed.share,
+                "weighted_low": weighed.low,
+                "weighted_high": weighed.high,
+                "grade": grade(weighed.share),
+                "left_out": ", ".join(weighed.left_out),
+                "by_prior": "; ".join(others),
             }
         )
     # C2 before C10, and any other name in its place.

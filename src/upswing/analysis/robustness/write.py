@@ -10,6 +10,7 @@ from upswing.analysis.robustness.read import read_sweep
 from upswing.analysis.robustness.selection import select
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
+from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
@@ -33,8 +34,8 @@ def write_readings(
     runs = {name: read_sweep(results, name, sweep, study) for name, sweep in sweeps.items()}
     if CHOOSING in runs:
         write_table(results / SELECTION, select(runs[CHOOSING], sweeps[CHOOSING].reports))
-    judged = robustness(sweeps, study, claims, runs)
-    robust = summary(judged)
+    judged = robustness(sweeps, study, claims, runs, Results(results, study).tile_policy)
+    robust = summary(judged, sweeps, claims, runs)
     write_table(results / READINGS, judged)
     write_table(results / DECISIVE, decisive(judged, sweeps))
     write_table(results / ROBUST, robust)

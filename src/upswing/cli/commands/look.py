@@ -6,10 +6,12 @@ import typer
 
 from upswing.cli.options import (
     CLAIMS,
+    TEMPLATES,
     AskedStudy,
     Claims,
     Named,
     Positional,
+    Templates,
     asked_study,
     results_folder,
 )
@@ -24,11 +26,13 @@ def verdicts(
     results: Named = None,
     study: AskedStudy = "",
     claims: Claims = CLAIMS,
+    templates: Templates = TEMPLATES,
     details: Annotated[
         bool, typer.Option("--details", help="Also say what is measured, where, and how.")
     ] = False,
 ) -> None:
     """Judge every claim by the runs and print the verdicts; writes tables/verdicts.parquet."""
+    from upswing.analysis.robustness.shipped import over_readings
     from upswing.analysis.verdicts import write_verdicts
     from upswing.cli.shown.verdicts import print_verdicts
     from upswing.runs.results import OwnRuns
@@ -36,7 +40,9 @@ def verdicts(
 
     folder = results_folder(results, positional)
     found = OwnRuns(folder, asked_study(study))
-    print_verdicts(write_verdicts(found, load_claims(claims, found.study)), details)
+    judged = load_claims(claims, found.study)
+    over, _ = over_readings(folder, templates, judged)
+    print_verdicts(write_verdicts(found, judged, over), details)
 
 
 def _figures() -> list[str]:

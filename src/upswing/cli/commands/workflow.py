@@ -129,6 +129,15 @@ def bound(positional: Positional = None, results: Named = None) -> None:
     write_bound(results_folder(results, positional))
 
 
+@panel.subcommand("tiles", cls=Job)
+def tiles(positional: Positional = None, results: Named = None) -> None:
+    """Look for a policy on the thesis's tiles that does full control (tables/tiles.parquet)."""
+    from upswing.optimal.represented import write_represented
+
+    found = write_represented(results_folder(results, positional))
+    print(f"{found['success'].sum()} of {len(found)} starts succeed")
+
+
 @panel.subcommand("changes", cls=Job)
 def changes(positional: Positional = None, results: Named = None) -> None:
     """Write tables/changes.parquet: what each change to the thesis buys."""

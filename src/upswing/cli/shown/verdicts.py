@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from upswing.cli.terminal import print_table, say
-from upswing.study.claims import words_of
+from upswing.study.claim_parts import words_of
 
 COLOURS = {
     "reproduced": "green",
@@ -47,6 +47,17 @@ def _cells(row: dict[str, Any]) -> tuple[str, ...]:
     )
 
 
+def over_readings(row: dict[str, Any]) -> str:
+    """How a claim does over readings, in a line; empty where they have not been asked."""
+    if pd.isna(row["weighted_share"]):
+        return ""
+    low, high = row["weighted_low"], row["weighted_high"]
+    return (
+        f"{row['grade']}: {row['weighted_share']:.2f} [{low:.2f}, {high:.2f}] of their weight; more "
+        f"likely than not under {row['held_share']:.0%} of them"
+    )
+
+
 def _details(row: dict[str, Any]) -> list[str]:
     """What is known of a claim beyond its row: each line is understood without the others."""
     parts = f", the weakest of {row['parts']} comparisons" if row["parts"] > 1 else ""
@@ -55,7 +66,9 @@ def _details(row: dict[str, Any]) -> list[str]:
         "measured": f"{row['measure']}{parts}",
         "cells": row["cells"],
         "interval": row["method"],
-        "p (Holm)": f"{row['p_holm']:.2g}",
+        "over readings": over_readings(row),
+        "fragile": row["fragile_because"],
+        "diverged, left out": str(row["diverged"]) if row["diverged"] else "",
         "note": row["note"],
     }
     return [f"{name}: {text}" for name, text in lines.items() if text]

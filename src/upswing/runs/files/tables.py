@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from upswing.runs.endings import PERCENT
 from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import metadata
 from upswing.runs.files.typed_table import Columns, read_table
@@ -25,6 +26,7 @@ NULLABLE = {
     "too_fast_share": "float64",
     "recovered_share": "float64",
     "diverged_at": "Int64",
+    **{f"recovered_last_{percent}": "float64" for percent in PERCENT},
 }
 """Columns that are empty for some runs."""
 
@@ -67,17 +69,20 @@ OF_A_CELL: Columns = {
 OF_A_VERDICT: Columns = {
     "claim": "text", "statement": "text", "section": "text", "measure": "text", "threshold": "text",
     "estimate": "number", "low": "number", "high": "number", "n": "whole", "method": "text",
-    "cells": "text", "p_value": "number", "verdict": "text", "could_be_better": "truth",
+    "cells": "text", "verdict": "text", "could_be_better": "truth", "at_threshold": "truth",
+    "diverged": "whole", "check": "text",
     "spread_low": "number", "spread_high": "number", "note": "text", "parts": "whole",
-    "figure": "whole?", "recordings": "texts", "p_holm": "number",
+    "figure": "whole?", "recordings": "texts", "held_share": "number", "weighted_share": "number",
+    "weighted_low": "number", "weighted_high": "number", "grade": "text?", "fragile": "truth",
+    "fragile_because": "text",
 }  # fmt: skip
 
 OF_A_COMPARISON: Columns = {
     "claim": "text", "part": "whole", "says": "text", "cells": "text", "measure": "text",
     "threshold": "text", "holds_from": "number", "partly_from": "number", "at_least": "truth",
     "estimate": "number", "low": "number", "high": "number", "n": "whole", "method": "text",
-    "spread_low": "number", "spread_high": "number", "p_value": "number", "verdict": "text",
-    "could_be_better": "truth", "because": "text",
+    "spread_low": "number", "spread_high": "number", "verdict": "text",
+    "could_be_better": "truth", "at_threshold": "truth", "diverged": "whole", "because": "text",
 }  # fmt: skip
 
 

@@ -1,0 +1,87 @@
+"""How the claims do over readings, for a study that has not swept them: what the project brings along.
+
+``make readings`` takes half an hour, so its result comes with the project, ``report/readings.json``,
+which ``make readme`` renews. A claim that has been changed since is not what was judged there, and takes
+nothing.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing.analysis.robustness.tables import OF_A_SUMMARY, REMEDY
+from upswing.runs.files.atomic import written
+from upswing.runs.files.provenance import provenance
+from upswing.runs.files.typed_table import read_table
+from upswing.study.claims import Claim, canonical_claims
+from upswing.study.errors import BadInput
+from upswing.study.paths import ROBUST
+
+SHIPPED = "readings.json"
+"""Its name, among the templates of the page."""
+
+Row = dict[str, Any]
+
+
+def write_shipped(
+    results: Path, templates: Path, claims: Mapping[str, Claim], made_from: Mapping[str, str]
+) -> None:
+    """Keep what the sweeps of ``results`` came to; ``made_from`` says which sweeps and code they are."""
+    rows = _own(results)
+    content = {
+        "made_from": {**made_from, "commit": provenance().git_commit},
+        "claims": {
+            claim: {**_plain(row), "judged": checksum_of(claims[claim])}
+            for claim, row in rows.items()
+            if claim in claims
+        },
+    }
+    with written(templates / SHIPPED) as beside:
+        beside.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
+
+
+def over_readings(
+    results: Path, templates: Path, claims: Mapping[str, Claim]
+) -> tuple[dict[str, Row], str]:
+    """What the readings say of each claim, and where it is from: ``own``, ``shipped`` or nowhere.
+
+    Raises:
+        BadInput: what is there cannot be read.
+    """
+    if (results / ROBUST).exists():
+        return _own(results), "own"
+    path = templates / SHIPPED
+    if not path.exists():
+        return {}, ""
+    try:
+        rows = json.loads(path.read_text("utf-8"))["claims"]
+        found = {
+            claim: row
+            for claim, row in rows.items()
+            if claim in claims and row["judged"] == checksum_of(claims[claim])
+        }
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise BadInput([f"{path}: is not what `make readme` writes; it makes it anew"]) from None
+    return found, "shipped"
+
+
+def checksum_of(claim: Claim) -> str:
+    """What tells whether a claim is still the one that was judged."""
+    return hashlib.sha256(canonical_claims({"C": claim}).encode()).hexdigest()[:16]
+
+
+def _own(results: Path) -> dict[str, Row]:
+    frame: pd.DataFrame = read_table(results / ROBUST, OF_A_SUMMARY, REMEDY)
+    rows = [{str(k): v for k, v in row.items()} for row in frame.to_dict("records")]
+    return {str(row["claim"]): row for row in rows}
+
+
+def _plain(row: Row) -> Row:
+    """Rounded, so that a difference in the last digits is none."""
+    return {
+        name: round(value, 4) if isinstance(value, float) else value for name, value in row.items()
+    }

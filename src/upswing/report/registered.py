@@ -1,0 +1,30 @@
+"""Whether what a page judges was written down before its runs: ``config/registration.yaml``."""
+
+from pathlib import Path
+from typing import Any
+
+from upswing.analysis.verdicts import LEDGER
+from upswing.runs.files.ledger import ledger_path, read_ledger
+from upswing.study.config import Study
+from upswing.study.errors import BadInput
+from upswing.study.registration import REGISTRATION, checksum_of, load_registration, seeds_of
+
+Row = dict[str, Any]
+
+
+def registered(results: Path, study: Study) -> Row | None:
+    """The last entry, and what of these results is not as it says; None where nothing is registered."""
+    if not REGISTRATION.exists():
+        return None
+    entry = load_registration(REGISTRATION)[-1]
+    now = {
+        "seeds": seeds_of(study),
+        "readings": checksum_of(study.readings.model_dump_json()),
+    }
+    try:
+        claims = read_ledger(ledger_path(results, LEDGER)).made_from["claims"]
+        now["claims"] = checksum_of(claims)
+    except (BadInput, KeyError):
+        now["claims"] = ""
+    changed = [name for name, value in now.items() if getattr(entry.registered, name) != value]
+    return {"date": entry.date, "unseen": entry.unseen, "why": entry.why, "changed": changed}
