@@ -78,12 +78,14 @@ def asked(config: Path, readings: Path, claims: Path) -> dict[str, object]:
                     "study": canonical(study),
                     "results": study.results,
                     "search": study.search is not None,
+                    "tiles": "full-control-long/table/alpha-0.001" in matrix.cells,
                     "changes": changes,
                     "cells": {cell: spec.canonical() for cell, spec in matrix.cells.items()},
                     "figures": drawable(matrix.cells, changes),
                     "comparisons": comparison_names(judged, matrix.cells),
                     "sweeps": {
-                        name: [g.name for g in groups(s, study)] for name, s in sweeps.items()
+                        name: [(g.name, g.round) for g in groups(s, study)]
+                        for name, s in sweeps.items()
                     },
                 },
                 pipe,
@@ -117,6 +119,8 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
     for cell, spec in told["cells"].items():  # type: ignore[attr-defined]
         yield f"train {cell}", subcommand("train", spec, "--results", results)
     yield "tables", subcommand("tables", results)
+    if told["tiles"]:
+        yield "tiles", subcommand("tiles", results, compiled=True)
     yield "verdicts", subcommand("verdicts", results, "--claims", str(claims))
     if told["changes"]:
         yield "bound", subcommand("bound", results, compiled=True)
@@ -129,7 +133,12 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
         yield "comparison", subcommand("comparison", comparison, results, "--claims", str(claims))
     yield "viewer", subcommand("viewer", results, "--templates", str(templates))
     for name, groups in told["sweeps"].items():  # type: ignore[attr-defined]
-        for group in groups:
+        ready = 1
+        for group, number in groups:
+            if number > ready:
+                ready = number
+                words = ("--study", str(told["study"]), "--sweeps", str(readings))
+                yield "finalists", subcommand("finalists", name, str(number), results, *words)
             yield (
                 f"sweep {name}",
                 subcommand(
@@ -190,6 +199,7 @@ SMALL = {
         "LEARNED": {"balancing": (0.001, 500), "full-control": (0.01, 500)},
     },
     "upswing.optimal.tile_policy": {"BALANCED": 500},
+    "upswing.optimal.represented": {"BUDGET": 1, "STEPS": 500},
     "upswing.analysis.contraction": {"PROBLEMS": 3},
 }
 

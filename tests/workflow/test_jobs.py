@@ -28,6 +28,8 @@ CODE_OF_RULE = {
     "viewer": jobs.VIEWER,
     "report": jobs.page(FIGURES),
     "bound": jobs.bound(),
+    "tiles": jobs.tiles(),
+    "finalists": jobs.FINALISTS,
 }
 
 
@@ -36,6 +38,8 @@ def small(name, folder):
     content = yaml.safe_load((ROOT / f"config/{name}.yaml").read_text("utf-8"))
     content["results"] = str(folder / "results")
     content["seeds"] = [5000]
+    for experiment in content["experiments"]:
+        experiment.pop("seeds", None)
     for task in content["tasks"].values():
         task["steps"] = STEPS
     if "search" in content:  # its many α's train with the same code
@@ -50,11 +54,11 @@ def small(name, folder):
 def small_readings(folder):
     """The sweeps that judge claims, with one seed and one reading that is varied."""
     content = yaml.safe_load((ROOT / "config/readings.yaml").read_text("utf-8"))
-    del content[
-        "selection"
-    ]  # its cells are those of ``networks``, and its table needs the whole grid
     for sweep in content.values():
-        sweep |= {"seeds": 1, "how": "pairs", "vary": sweep["vary"][:1], "without": []}
+        sweep |= {"seeds": 1, "how": "pairs", "vary": sweep["vary"][:1], "without": [], "every": {}}
+        sweep["seeds_beside"] = 1
+    # Its table needs the whole grid of four readings: here it is a sweep as any other.
+    content["of-networks"] = content.pop("networks") | {"rounds": [{"readings": 1, "seeds": 2}]}
     path = folder / "readings.yaml"
     path.write_text(yaml.safe_dump(content), "utf-8")
     # The study whose cells they are: another study sweeps none of them.
@@ -102,7 +106,8 @@ def test_every_kind_of_job_was_run(ran):
     study, sweeps, imported = ran
     rules = {job.partition(" ")[0] for job in imported}
     expected = {"study", "train", "tables", "verdicts", "figure", "comparison", "viewer", "report"}
-    expected |= {"bound", "changes", "shortest"} if study.search else {"sweep", "readings"}
+    of_the_thesis = {"sweep", "readings", "finalists", "tiles"}
+    expected |= {"bound", "changes", "shortest"} if study.search else of_the_thesis
     assert rules == expected
     assert {f"train {cell}" for cell in Matrix(study).cells} <= imported.keys()
     assert {f"sweep {name}" for name in sweeps} <= imported.keys()

@@ -60,7 +60,7 @@ def rerun(study):
         rule = re.match(r"(?:local)?rule (\w+):", job)
         asked = dict(re.findall(r"(\w+)=([^,\s]+)", job.partition("wildcards:")[2]))
         if rule and rule[1].startswith("train_"):
-            found.add(f"{asked['task']}/{asked['architecture']}")
+            found.add(asked["cell"].rpartition("/")[0])
         elif rule and rule[1] == "sweep":
             found.add(asked["sweep"])
         elif rule and rule[1] in ("bound", "shortest"):

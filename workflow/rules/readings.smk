@@ -42,7 +42,7 @@ rule finalists:
 rule readings:
     input:
         f"{RESULTS}/study.json",
-        f"{RESULTS}/{TILES}",
+        FILES.tiles,
         FILES.swept,
     output:
         FILES.readings,

@@ -57,7 +57,7 @@ rule tiles:
 rule verdicts:
     input:
         FILES.of_cells(FILES.judged_cells),
-        f"{RESULTS}/{TILES}",
+        FILES.tiles,
         lambda wildcards: FILES.weighed(workflow.dag_settings.targets),
     output:
         f"{RESULTS}/tables/verdicts.parquet",

@@ -138,7 +138,8 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
     for number, part in enumerate(claim.parts, 1):
         asked = all(getattr(readings, key) == value for key, value in part.only_if.items())
         for cells in part.comparisons if asked else []:
-            if missing := [cell for cell in cells if cell not in results.cells]:
+            needed = cells or tuple(filter(None, [claim.cell]))  # made-up problems need none
+            if missing := [cell for cell in needed if cell not in results.cells]:
                 estimate = statistics.no_runs()
                 verdict: Verdict = "not in this study"
                 own = np.empty(0)

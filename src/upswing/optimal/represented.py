@@ -28,7 +28,7 @@ ALPHA, STEPS = 0.01, 1_000_000
 SEED = 1000
 """That of the table and of the search: one that no verdict uses."""
 
-BUDGET = 3_000
+BUDGET = 100
 """Largest number of changes that the search tries."""
 
 

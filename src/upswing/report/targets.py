@@ -166,7 +166,8 @@ class Targets:
         """What follows training and takes seconds: made again where nobody knows how it was made."""
         changes = self._below(CHANGES) if self.changes else []
         return [
-            *self._below(STUDY, TILES, VIEWER_PAGE),
+            *self._below(STUDY, VIEWER_PAGE),
+            *self.tiles,
             *self.tables,
             *self.comparisons,
             *self.pictures(*PICTURE),
@@ -178,7 +179,18 @@ class Targets:
     def slow(self) -> list[str]:
         """What takes long besides training: left as it is where nobody knows how it was made."""
         readings = self.readings if self.groups else []
-        return [*self.swept, *readings, *(table for table in self.beyond if CHANGES not in table)]
+        rounds = [
+            file
+            for name, sweep in self.sweeps.items()
+            for number in range(2, len(sweep.rounds) + 2)
+            for file in self._below(finalists_of_sweep(name, number))
+        ]
+        return [
+            *self.swept,
+            *rounds,
+            *readings,
+            *(table for table in self.beyond if CHANGES not in table),
+        ]
 
     def pictures(self, *kinds: str) -> list[str]:
         """The files of all figures that have one of these endings."""
@@ -254,6 +266,16 @@ class Targets:
     def reports_of_sweep(self, name: str) -> str:
         """What says which readings go on, as one line."""
         return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
+
+    @cached_property
+    def tiles(self) -> list[str]:
+        """What says whether a table can represent the task, where a claim of this study asks."""
+        asks = any(
+            claim.cell in self.matrix.cells and part.kind == "share_represented"
+            for claim in self.claims.values()
+            for part in claim.parts
+        )
+        return self._below(TILES) if asks else []
 
     def weighed(self, asked: Collection[str]) -> list[str]:
         """What says how the claims do over readings: the study's own sweeps, or what is shipped."""

@@ -71,7 +71,7 @@ def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures
         too_fast_share=float(unstoppable / swing_ups) if swing_ups else None,
         recovered_share=recovered / below if below else None,
         upright_at_end=float(_sums(trajectory, end, steps)[1] / (steps - end)),
-        too_fast_last_fifth=_arrivals(trajectory, last, steps, too_fast)[2],
+        too_fast_last_fifth=int(_arrivals(trajectory, last, steps, too_fast)[2]),
         diverged_at=None if (at := int(trajectory.diverged_at[0])) == NEVER else at,
     )
 

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from upswing.study.json_schema import schema, sections_of_options
-from upswing.study.sweeps import Sweep
+from upswing.study.registration import Entry, Registered
+from upswing.study.sweeps import Report, Round, Sweep
 
 HEAD = """\
 # Configuration
@@ -33,8 +34,15 @@ class `Options`.
 SWEEPS_HEAD = """\
 `claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
 
-`readings.yaml` says what `make readings` runs under other readings. The sweep named `selection` chooses
-the networks' default; every other one judges the claims whose cells it has.
+`readings.yaml` says what `make readings` runs under other readings. Each sweep judges the claims whose
+cells it has; the sweep named `networks` also chooses the networks' default.
+
+"""
+
+REGISTRATION_HEAD = """\
+`registration.yaml` says of every version of claims, sweeps, seeds and readings why it is what it is, and
+which seeds no run had used when it was written. A test fails where the last entry is about another
+version; it says the checksums.
 
 """
 
@@ -55,6 +63,14 @@ def reference() -> str:
     sections += [_section(title, options) for title, options in sections_of_options()]
     sweep = Sweep.model_json_schema()
     sections.append(SWEEPS_HEAD + _section("A sweep, below `<name>` in `readings.yaml`", sweep))
+    report, one = Report.model_json_schema(), Round.model_json_schema()
+    sections.append(_section("A report, below `reports.<name>` of a sweep", report))
+    sections.append(_section("A round, an item of `rounds` of a sweep", one))
+    entry, registered = Entry.model_json_schema(), Registered.model_json_schema()
+    sections.append(
+        REGISTRATION_HEAD + _section("An entry, an item of `entries` in `registration.yaml`", entry)
+    )
+    sections.append(_section("What is registered, below `registered` of an entry", registered))
     return "\n".join(sections)
 
 
@@ -87,6 +103,9 @@ def _values(field: dict[str, Any]) -> str:
         case "array":
             return f"list of {_values(field['items'])}"
         case "object":
+            if "required" in field:
+                keys = ", ".join(f"`{name}`" for name in field["required"])
+                return f"mapping of {keys}"
             return "mapping, see below"
         case "integer" | "number" as number:
             return str(number) + _limits(field)

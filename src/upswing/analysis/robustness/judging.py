@@ -199,7 +199,9 @@ def _shares(of: pd.DataFrame, names: tuple[str, ...]) -> str:
 
 
 def _of_changes(of: pd.DataFrame, sweep: Sweep) -> Iterator[Row]:
-    default = bool(of.loc[of["readings"] == "{}", "estimate_holds"].iloc[0])
+    if not (is_default := of["readings"] == "{}").any():
+        return  # it was asked under readings that go on to a later round, and the default did not
+    default = bool(of.loc[is_default, "estimate_holds"].iloc[0])
     found = [tuple(sorted(json.loads(str(text)).items())) for text in of["readings"]]
     flips = {
         keys: bool(holds) != default

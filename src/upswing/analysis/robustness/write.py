@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from upswing.analysis.robustness.judging import decisive, robustness, summary
@@ -14,7 +15,7 @@ from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
-from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION, TILES
 from upswing.study.sweeps import CHOOSING, Sweep
 
 
@@ -34,7 +35,7 @@ def write_readings(
     runs = {name: read_sweep(results, name, sweep, study) for name, sweep in sweeps.items()}
     if CHOOSING in runs:
         write_table(results / SELECTION, select(runs[CHOOSING], sweeps[CHOOSING].reports))
-    judged = robustness(sweeps, study, claims, runs, Results(results, study).tile_policy)
+    judged = robustness(sweeps, study, claims, runs, _tiles(results))
     robust = summary(judged, sweeps, claims, runs)
     write_table(results / READINGS, judged)
     write_table(results / DECISIVE, decisive(judged, sweeps))
@@ -42,3 +43,10 @@ def write_readings(
     tables = [results / table for table in (SELECTION, READINGS, DECISIVE, ROBUST)]
     seal(results, "readings", [path for path in tables if path.exists()])
     return robust
+
+
+def _tiles(results: Path) -> pd.DataFrame:
+    """What a policy on the tiles came to; no starts where no claim of the study asks."""
+    if (results / TILES).exists():
+        return Results(results).tile_policy
+    return pd.DataFrame({"success": np.empty(0, dtype=bool)})
