@@ -56,7 +56,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         train(spec, folder)
     write_tables(folder, matrix)
     results = Results(folder)
-    write_verdicts(results, load_claims(Path("config/claims.yaml")))
+    write_verdicts(results, load_claims(Path("config/claims.yaml")), {})
     return results
 
 

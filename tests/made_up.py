@@ -21,7 +21,10 @@ STUDY = {
 
 
 def made_up(folder, **columns):
-    """A folder of results with made-up measures: of each column three arrays, one for each cell."""
+    """A folder of results with made-up measures: of each column three arrays, one for each cell.
+
+    No run diverged, unless a column ``diverged_at`` says when: NaN for those that did not.
+    """
     study = validated({"study": STUDY})
     write_study(canonical(study), folder)
     frames = []
@@ -31,10 +34,11 @@ def made_up(folder, **columns):
         frame["recording"] = [f"runs/{cell}/seed-{seed}.rrd" for seed in range(N)]
         frame["steps"], frame["falls"], frame["falls_last_fifth"] = 1_000, range(N), 0
         frame["digest"] = [f"{number}-{seed}" for seed in range(N)]
+        frame["diverged_at"] = np.nan
         for name, values in columns.items():
             frame[name] = values[number]
         frames.append(frame)
-    runs = pd.concat(frames, ignore_index=True)
+    runs = pd.concat(frames, ignore_index=True).astype({"diverged_at": "Int64"})
     write_table(folder / RUNS, runs)
     for recording in runs["recording"]:
         (folder / recording).parent.mkdir(parents=True, exist_ok=True)

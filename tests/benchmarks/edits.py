@@ -25,7 +25,7 @@ BIN = Path(sys.executable).parent
 REPETITIONS = 3
 COPIED = ("Snakefile", "workflow", "report", "config", "src")
 ALPHAS = "alphas: [1, 0.75, 0.5, 0.1, 0.01, 0.001]"
-"""The first step sizes in ``config/config.yaml``: those of balancing."""
+"""The first step sizes in ``config/config.yaml``: those of tables that balance."""
 
 
 class Edit(NamedTuple):
@@ -42,7 +42,7 @@ class Edit(NamedTuple):
 EDITS_MADE = (
     Edit("nothing", 2.0),
     Edit(
-        "one new α (two cells of balancing)", 13.0, "config/config.yaml", ALPHAS,
+        "one new α (a cell of balancing)", 13.0, "config/config.yaml", ALPHAS,
         ALPHAS.replace("[1,", "[1, 0.{number},"), 6.0,
     ),
     Edit("a threshold", 6.0, "config/claims.yaml", "at_least: 0.98", "at_least: 0.97"),
@@ -50,7 +50,8 @@ EDITS_MADE = (
     Edit("one figure's own code", 7.0, "src/upswing/figures/fig05.py", "5_000", "4_000"),
     Edit("a word in the page's template", 5.0, "report/parts/head.html.j2", "</h1>", " again</h1>"),
 )  # fmt: skip
-FROM_NOTHING = Edit("everything from nothing", 110.0)
+FROM_NOTHING = Edit("everything from nothing", 380.0)
+"""The goal was 110 s for 1,020 runs, so it is 380 s for 3,500."""
 
 
 def study(folder: Path) -> float:

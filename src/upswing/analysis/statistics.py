@@ -232,7 +232,9 @@ def bootstrapped(name: str, statistic: Callable[[Real], Real], sample: Sample) -
 
 def _estimate(name: str, value: float, resampled: Real, n: int, confidence: float) -> Estimate:
     tails = ((1 - confidence) / 2, (1 + confidence) / 2)
-    low, high = np.quantile(resampled, tails)
+    # Nothing by nothing, in a resample: then anything is possible.
+    known = np.isfinite(resampled).all()
+    low, high = np.quantile(resampled, tails) if known else (-np.inf, np.inf)
     method = f"{name}, bootstrap ({RESAMPLES:,} resamples, percentiles)"
     return Estimate(value, float(low), float(high), n, method)
 

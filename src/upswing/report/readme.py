@@ -1,10 +1,12 @@
 """What README and documentation show of the results: verdicts, pictures, the deviations."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
 from PIL import Image
 
+from upswing.analysis.robustness.shipped import write_shipped
 from upswing.analysis.robustness.tables import OF_A_SELECTION
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -12,8 +14,9 @@ from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
+from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
-from upswing.study.paths import SELECTION, VERDICTS, figure
+from upswing.study.paths import ROBUST, SELECTION, VERDICTS, figure
 from upswing.study.yaml_file import read_yaml
 
 FIGURES = ("overview", "step-sizes")
@@ -36,11 +39,17 @@ COLOURS = 64
 END = "<!-- end -->"
 
 
-def write_readme(results: Path, templates: Path, readme: Path) -> None:
+def write_readme(
+    results: Path,
+    templates: Path,
+    readme: Path,
+    claims: Mapping[str, Claim] | None = None,
+    made_from: Mapping[str, str] | None = None,
+) -> None:
     """Renew the generated parts of ``readme`` and of the pages and pictures in ``docs`` beside it.
 
-    What they come from is kept below ``templates``. The animation stays as it is if the study has not
-    the two cells that it shows.
+    What they come from is kept below ``templates``; so is what the sweeps say of ``claims``, with what
+    it was ``made_from``. The animation stays as it is if the study has not the two cells that it shows.
 
     Raises:
         BadInput: the results have no verdicts or figures, or a page no place for a part.
@@ -53,6 +62,8 @@ def write_readme(results: Path, templates: Path, readme: Path) -> None:
     verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
         verdicts.to_csv(beside, index=False)
+    if claims is not None and (results / ROBUST).exists():
+        write_shipped(results, templates, claims, made_from or {})
     if (results / SELECTION).exists():
         selection = read_table(results / SELECTION, OF_A_SELECTION, "`make readings` makes it")
         with written(templates / "selection.csv") as beside:
@@ -81,6 +92,9 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
             "claim": [row["claim"] for row in rows],
             "the thesis says": [row["statement"] for row in rows],
             "verdict": [words.verdict(row) for row in rows],
+            "over readings": [words.over_readings(row) for row in rows],
+            "fragile": [row["fragile_because"] or "no" for row in rows],
+            "check": [row["check"] for row in rows],
             "measured": [row["measure"] for row in rows],
             "estimate [95 %]": [words.interval(row) for row in rows],
             "threshold": [row["threshold"] for row in rows],
@@ -91,15 +105,25 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
 
 def counted(table: pd.DataFrame) -> str:
     """How many claims got which verdict, in a sentence."""
-    of = table.groupby("verdict", sort=False)["claim"].agg(list)
+    empirical, checks = table[table["check"] == ""], table[table["check"] != ""]
+    of = empirical.groupby("verdict", sort=False)["claim"].agg(list)
     parts = [f"{len(claims)} {verdict} ({', '.join(claims)})" for verdict, claims in of.items()]
-    return f"Of {len(table)} claims: {'; '.join(parts)}."
+    said = f"Of {len(empirical)} empirical claims: {'; '.join(parts)}."
+    apart = ", ".join(f"{row['claim']} ({row['verdict']})" for _, row in checks.iterrows())
+    return f"{said} No evidence but checks: {apart}." if apart else said
 
 
 def in_short(table: pd.DataFrame) -> pd.DataFrame:
-    """The verdicts as the README shows them: claim, verdict, estimate."""
-    claims = table["claim"] + ": " + table["the thesis says"]
-    return table[["verdict", "estimate [95 %]"]].assign(claim=claims).iloc[:, [2, 0, 1]]
+    """The verdicts as the README shows them: claim, estimate, verdict, and how sturdy it is."""
+    fragile = table["fragile"].map(lambda why: "" if why == "no" else ", fragile")
+    return pd.DataFrame(
+        {
+            "claim": table["claim"] + ": " + table["the thesis says"],
+            "estimate [95 %]": table["estimate [95 %]"],
+            "under our reading": table["verdict"] + fragile,
+            "over readings": table["over readings"],
+        }
+    )
 
 
 def markdown(table: pd.DataFrame) -> str:

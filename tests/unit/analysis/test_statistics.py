@@ -1,4 +1,4 @@
-"""Each statistic against scipy, a hand-made case, or its coverage on data whose truth is known."""
+"""Each statistic against scipy or a hand-made case; how often intervals hold is in test_coverage."""
 
 import numpy as np
 import pytest
@@ -6,139 +6,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
+from tests.made_up import FROM, ONE, OTHER, UP_TO, part
 from upswing.analysis import statistics, survival
 from upswing.analysis.statistics import Estimate
 
-TRIALS = 1_000
+SAMPLES = st.lists(st.integers(-4, 4).map(lambda x: x / 2), min_size=1, max_size=25)
+"""Values of runs, many of them equal."""
 
 
-def coverage(estimate, draw, truth):
-    """The share of 1,000 data sets whose interval holds the truth."""
-    rng = np.random.default_rng(7)
-    inside = 0
-    for _ in range(TRIALS):
-        found = estimate(*draw(rng))
-        inside += found.low - 1e-12 <= truth <= found.high + 1e-12
-    return inside / TRIALS
-
-
-@pytest.fixture
-def few_resamples(monkeypatch):
-    """A coarser bootstrap, for as many data sets as coverage takes."""
-    monkeypatch.setattr(statistics, "RESAMPLES", 1_000)
-    statistics._resamples.cache_clear()
-    yield
-    statistics._resamples.cache_clear()
-
-
-@pytest.mark.parametrize("p", [0.1, 0.3, 0.5, 0.95])
-def test_coverage_of_a_share_is_that_of_wilson(p):
-    """Of a share coverage is known exactly: the sum over k of what the binomial gives it."""
-    k = np.arange(31)
-    inside = [(e := statistics.share(int(i), 30)).low <= p <= e.high for i in k]
-    exact = stats.binom.pmf(k, 30, p)[inside].sum()
-    found = coverage(statistics.share, lambda rng: (int(rng.binomial(30, p)), 30), p)
-    assert found == pytest.approx(exact, abs=3 * np.sqrt(exact * (1 - exact) / TRIALS))
-    assert exact > 0.92
-
-
-# A percentile bootstrap of n = 30 is known to fall a little short of 95 %: 93 to 94 %. The Monte Carlo
-# error of 1,000 data sets (three times 0.7 %) comes on top.
-ROOM = (0.915, 0.975)
-
-
-@pytest.mark.usefixtures("few_resamples")
-@pytest.mark.parametrize("name", ["mean", "median", "interquartile_mean"])
-@pytest.mark.parametrize("shape", ["normal", "uniform"])
-def test_coverage_of_locations(name, shape):
-    draw = {
-        "normal": lambda rng: (rng.normal(5, 2, 30),),
-        "uniform": lambda rng: (rng.uniform(4, 6, 30),),
-    }[shape]
-    assert ROOM[0] < coverage(statistics.LOCATIONS[name], draw, 5.0) < ROOM[1]
-
-
-@pytest.mark.usefixtures("few_resamples")
-def test_coverage_of_differences_and_ratios_of_pairs():
-    def draw(rng):
-        common = rng.normal(size=30)
-        return 6 + common + rng.normal(size=30), 4 + common + rng.normal(size=30)
-
-    assert ROOM[0] < coverage(statistics.difference_of_means, draw, 2.0) < ROOM[1]
-    assert ROOM[0] < coverage(statistics.ratio_of_means, draw, 1.5) < ROOM[1]
-
-
-def test_coverage_of_a_probability_and_of_a_difference_of_shares():
-    # P(X > Y) for normals one standard deviation of the difference apart
-    truth = float(stats.norm.cdf(1))
-    scale = 1 / np.sqrt(2)
-    found = coverage(
-        statistics.probability_greater,
-        lambda rng: (rng.normal(1, scale, 30), rng.normal(0, scale, 30)),
-        truth,
-    )
-    assert ROOM[0] < found < 0.985
-    found = coverage(
-        statistics.difference_of_shares,
-        lambda rng: (rng.random(30) < 0.7, rng.random(30) < 0.4),
-        0.3,
-    )
-    assert ROOM[0] < found < 0.985
-
-
-def test_coverage_of_a_share_by_a_time():
-    truth = float(stats.expon.cdf(1.0))
-
-    def draw(rng):
-        times = [t if t < 2 else None for t in rng.exponential(size=30)]
-        return (times,)
-
-    found = coverage(lambda times: survival.share_by(times, 1.0, 2.0), draw, truth)
-    assert ROOM[0] < found < 0.985
-
-
-@pytest.mark.usefixtures("few_resamples")
-@pytest.mark.parametrize("means", [(0, 0, 0), (0, 0, 0.5), (0, 0.2, 0.4), (0, 0, 2)])
-def test_coverage_of_the_largest_difference(means):
-    """Simultaneous intervals cover at least as often as they say, equal means included."""
-
-    def draw(rng):
-        return ([rng.normal(mean, 1, 30) for mean in means],)
-
-    assert coverage(statistics.range_of_means, draw, max(means) - min(means)) > ROOM[0]
-
-
-@pytest.mark.parametrize("shares", [(0.5, 0.5, 0.5), (0.2, 0.5, 0.8), (0, 0, 1)])
-def test_coverage_of_the_largest_difference_of_shares(shares):
-    def draw(rng):
-        return ([rng.random(30) < p for p in shares],)
-
-    assert coverage(statistics.range_of_shares, draw, max(shares) - min(shares)) > ROOM[0]
-
-
-def test_coverage_of_the_median_time():
-    """The interval of Kaplan and Meier's median, with a third of the runs censored."""
-    rng = np.random.default_rng(2)
-    inside = 0
-    for _ in range(TRIALS):
-        times = [t if t < 1.1 else None for t in rng.exponential(size=30)]
-        _, low, high = survival.median_time(times, 1.1)
-        inside += low <= np.log(2) <= high
-    assert ROOM[0] < inside / TRIALS < 0.99
-
-
-@given(st.integers(0, 40), st.integers(1, 40))
-def test_wilson_is_scipys_for_whole_numbers(k, n):
+@given(st.integers(0, 40), st.integers(1, 40), st.sampled_from([0.9, 0.95, 0.99]))
+def test_wilson_is_scipys_for_whole_numbers(k, n, confidence):
     k = min(k, n)
-    mine = statistics.wilson(k / n, n)
-    theirs = stats.binomtest(k, n).proportion_ci(0.95, method="wilson")
+    mine = statistics.wilson(k / n, n, confidence)
+    theirs = stats.binomtest(k, n).proportion_ci(confidence, method="wilson")
     assert mine == pytest.approx((theirs.low, theirs.high), abs=1e-9)
 
 
 def test_newcombe_by_hand():
     """Newcombe (1998), table II, case (a): 56/70 − 48/80 = 0.2, interval 0.0524 to 0.3339."""
-    found = statistics.difference_of_shares([True] * 56 + [False] * 14, [True] * 48 + [False] * 32)
+    found = statistics.difference_of_shares((56, 70), (48, 80))
     assert (found.value, found.low, found.high) == pytest.approx((0.2, 0.0524, 0.3339), abs=1e-4)
+    assert found.n == 70
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=30))
@@ -150,19 +38,124 @@ def test_locations_are_scipys(values):
     )
 
 
-def test_the_bootstrap_is_scipys_within_its_own_noise():
-    values = np.random.default_rng(3).gamma(2, size=30)
-    mine = statistics.mean(values)
-    theirs = stats.bootstrap(
-        (values,), np.mean, n_resamples=10_000, method="percentile", rng=np.random.default_rng(1)
-    ).confidence_interval
+def gamma(seed, n, scale=1.0):
+    return np.random.default_rng(seed).gamma(2, scale, size=n)
+
+
+def scipys(samples, statistic, paired=False):
+    """Scipy's percentile interval of as many resamples."""
+    return stats.bootstrap(
+        samples, statistic, n_resamples=10_000, method="percentile", paired=paired, vectorized=True,
+        rng=np.random.default_rng(1),
+    ).confidence_interval  # fmt: skip
+
+
+def assert_alike(mine, theirs):
+    """Two bootstraps of the same data, within their own noise."""
     width = theirs.high - theirs.low
     assert (mine.low, mine.high) == pytest.approx((theirs.low, theirs.high), abs=0.03 * width)
+
+
+def difference(x, y, axis):
+    return x.mean(axis=axis) - y.mean(axis=axis)
+
+
+def ratio(x, y, axis):
+    return x.mean(axis=axis) / y.mean(axis=axis)
+
+
+def test_the_bootstrap_is_scipys_within_its_own_noise():
+    values = gamma(3, 30)
+    assert_alike(statistics.mean(values), scipys((values,), np.mean))
+    assert_alike(statistics.median(values), scipys((values,), np.median))
+
+
+@pytest.mark.parametrize("sizes", [(30, 30), (30, 80)])
+def test_two_samples_are_drawn_each_on_its_own_as_scipy_does(sizes):
+    x, y = gamma(3, sizes[0], 2.0), gamma(4, sizes[1])
+    for mine, statistic in (
+        (statistics.difference_of_means(x, y), difference),
+        (statistics.ratio_of_means(x, y), ratio),
+    ):
+        assert mine.value == pytest.approx(statistic(x, y, 0))
+        assert mine.n == min(sizes)
+        assert_alike(mine, scipys((x, y), statistic))
+
+
+def test_the_difference_of_two_equal_samples_is_not_certain():
+    """Runs of two cells that happen to agree are still two samples."""
+    x = gamma(5, 40)
+    found = statistics.difference_of_means(x, x)
+    half = stats.norm.ppf(0.975) * np.sqrt(2 * x.var() / 40)
+    assert found.value == 0
+    assert (found.low, found.high) == pytest.approx((-half, half), rel=0.06)
+
+
+def test_two_counts_of_the_same_runs_are_drawn_together_as_scipy_does():
+    arrivals = gamma(6, 40, 10.0)
+    unstoppable = arrivals * np.random.default_rng(7).uniform(0.1, 0.5, 40)
+    mine = statistics.ratio_of_sums(unstoppable, arrivals)
+    assert mine.value == pytest.approx(unstoppable.sum() / arrivals.sum())
+    assert_alike(mine, scipys((unstoppable, arrivals), ratio, paired=True))
+    same = statistics.ratio_of_sums(0.25 * arrivals, arrivals)
+    assert (same.low, same.high) == pytest.approx((0.25, 0.25))
+
+
+def test_two_counts_of_the_same_runs_are_of_as_many_runs():
+    with pytest.raises(ValueError, match=r"samples of the same runs differ: \[3, 2\]"):
+        statistics.ratio_of_sums([1, 2, 3], [1, 2])
+
+
+@pytest.mark.parametrize(("n", "number"), [(1, 0), (7, 0), (30, 1), (50, 2)])
+def test_means_by_how_often_a_run_is_drawn_are_the_means_of_what_is_drawn(n, number):
+    values = gamma(n, n)
+    drawn = statistics._resamples(n, number)
+    times = statistics._times_drawn(n, number)
+    assert times.shape == drawn.shape == (statistics.RESAMPLES, n)
+    assert (times.sum(axis=1) == n).all()
+    np.testing.assert_allclose(times @ values / n, values[drawn].mean(axis=1))
+
+
+def test_samples_of_as_many_runs_are_not_drawn_alike():
+    one, other = (statistics._resamples(30, number) for number in (0, 1))
+    assert (one == other).mean() == pytest.approx(1 / 30, abs=0.005)
 
 
 def test_the_same_runs_give_the_same_interval():
     values = np.random.default_rng(0).normal(size=30)
     assert statistics.mean(values)[:4] == statistics.mean(values)[:4]
+
+
+@given(SAMPLES, SAMPLES)
+def test_the_share_of_pairs_is_that_of_all_pairs(x, y):
+    plainly = np.mean([[1.0 if a > b else 0.5 if a == b else 0.0 for b in y] for a in x])
+    assert statistics.share_of_pairs(x, y) == pytest.approx(plainly)
+    assert statistics.share_of_pairs(y, x) == pytest.approx(1 - plainly)
+
+
+@given(SAMPLES, SAMPLES)
+def test_the_share_of_pairs_is_mann_and_whitneys(x, y):
+    found = statistics.probability_greater(x, y)
+    u = stats.mannwhitneyu(x, y, method="asymptotic").statistic
+    assert found.value == pytest.approx(u / (len(x) * len(y)))
+    assert found.n == min(len(x), len(y))
+    assert 0 <= found.low <= found.value <= found.high <= 1
+
+
+@pytest.mark.parametrize(("k", "n", "m"), [(0, 30, 30), (7, 30, 90), (30, 30, 31)])
+def test_pairs_that_say_no_more_than_one_sample_have_its_interval(k, n, m):
+    """With one value of Y between those of X the pairs are n runs of which k are greater."""
+    found = statistics.probability_greater([1.0] * k + [-1.0] * (n - k), [0.0] * m)
+    assert found[:3] == pytest.approx(statistics.share(k, n)[:3])
+    turned = statistics.probability_greater([0.0] * m, [1.0] * k + [-1.0] * (n - k))
+    assert turned[:3] == pytest.approx(statistics.share(n - k, n)[:3])
+
+
+def test_the_smaller_sample_counts():
+    one = statistics.probability_greater(range(5, 25), range(1_000))
+    other = statistics.probability_greater(range(5, 1_005), range(20))
+    assert one.n == other.n == 20
+    assert one.high - one.low > 0.1
 
 
 def test_pairs_that_all_agree_are_not_certain():
@@ -173,7 +166,31 @@ def test_pairs_that_all_agree_are_not_certain():
 
 def test_ties_count_half():
     found = statistics.probability_greater([1, 2, 3, 0], [1, 1, 3, 1])
-    assert found.value == pytest.approx((0.5 + 1 + 0.5 + 0) / 4)
+    assert found.value == pytest.approx((0.5 * 3 + 3 + 3 + 0.5 + 0) / 16)
+
+
+def test_the_largest_difference_is_that_of_its_pairs():
+    """Of three groups, of which the first and the last lie furthest apart, whichever way round."""
+    groups = [gamma(8, 30), gamma(9, 40) + 1, gamma(10, 50) + 3]
+    for order in (groups, groups[::-1]):
+        found = statistics.range_of_means(order)
+        level = 1 - 0.05 / 3
+        pair = statistics.of_means(
+            "difference", lambda a, b: b - a, [order[0], order[2]], confidence=level
+        )
+        assert found.value == pytest.approx(abs(pair.value))
+        assert (found.low, found.high) == pytest.approx(
+            sorted((abs(pair.low), abs(pair.high))), rel=1e-6
+        )
+        assert found.n == 30
+
+
+def test_the_largest_difference_of_shares_is_newcombes_at_bonferronis_level():
+    groups = [(3, 30), (20, 40), (45, 50)]
+    for order in (groups, groups[::-1]):
+        found = statistics.range_of_shares(order)
+        pair = statistics.difference_of_shares((45, 50), (3, 30), confidence=1 - 0.05 / 3)
+        assert found[:4] == pytest.approx(pair[:4])
 
 
 def test_kaplan_meier_is_the_plain_share_when_nobody_left_early():
@@ -192,51 +209,37 @@ def test_median_time_with_runs_that_never_got_there():
     assert survival.median_time([None, None], 10) == (np.inf, np.inf, np.inf)
 
 
-def test_holm_by_hand():
-    """Steps of 4, 3, 2, 1 times the p value, never falling, in the order given."""
-    assert statistics.holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
-    assert statistics.holm([0.9, 0.8]) == [1.0, 1.0]
-
-
-@given(st.lists(st.floats(0, 1), min_size=1, max_size=20))
-def test_holm_never_lowers_a_p_value_and_never_exceeds_bonferroni(p_values):
-    adjusted = statistics.holm(p_values)
-    for before, after in zip(p_values, adjusted, strict=True):
-        assert before <= after + 1e-12
-        assert after <= min(1.0, len(p_values) * max(p_values)) + 1e-12
-    assert min(adjusted) == pytest.approx(min(1.0, len(p_values) * min(p_values)))
-
-
-@pytest.mark.parametrize("at_least", [True, False])
-def test_p_values_of_shares_are_scipys(at_least):
-    side = "greater" if at_least else "less"
-    found = statistics.share(26, 30).p_value(0.8, at_least)
-    assert found == pytest.approx(stats.binomtest(26, 30, 0.8, side).pvalue)
-
-
-def test_p_values_of_a_bootstrap_are_small_far_from_the_threshold():
-    found = statistics.mean(np.random.default_rng(0).normal(5, 1, 30))
-    assert found.p_value(3.0, True) == pytest.approx(1 / 10_001)
-    assert found.p_value(7.0, True) == 1
-    assert 0.2 < found.p_value(found.value, True) < 0.8
-
-
-def test_nothing_by_nothing_speaks_for_no_claim():
-    found = statistics.ratio_of_means([0.0] * 10, [0.0] * 10)
-    assert found.p_value(0.5, True) == found.p_value(0.5, False) == 1
-
-
-def test_the_p_value_of_a_difference_looks_at_the_side_of_the_threshold():
-    found = statistics.difference_of_shares([True] * 30, [False] * 30)
-    assert 1e-12 < found.p_value(0.5, True) < 1e-5
-    assert found.p_value(0.5, False) == 1
+@pytest.mark.parametrize("kind", ["ratio_of_means", "ratio_of_sums"])
+@pytest.mark.parametrize("below", [[0.0] * 10, [0.0] * 9 + [1.0]])
+def test_nothing_by_nothing_speaks_for_no_claim(kind, below):
+    """Neither where every run has none, nor where a resample has none."""
+    found = getattr(statistics, kind)([0.0] * 10, below)
+    assert (found.low, found.high) == (-np.inf, np.inf)
+    pair = {"measure": "falls", "per": "steps"} if kind == "ratio_of_sums" else {"measure": "falls"}
+    cells = [ONE] if kind == "ratio_of_sums" else [ONE, OTHER]
+    for bounds in (FROM, UP_TO):
+        assert part(kind, cells, **pair, **bounds).verdict(found) == "inconclusive"
 
 
 def test_no_runs_tell_nothing():
-    for found in (statistics.share(0, 0), statistics.mean([]), survival.share_by([], 1, 2)):
+    some = [1.0, 2.0]
+    for found in (
+        statistics.share(0, 0),
+        statistics.mean([]),
+        statistics.median([]),
+        statistics.difference_of_means([], some),
+        statistics.ratio_of_means(some, []),
+        statistics.ratio_of_sums([], []),
+        statistics.probability_greater([], some),
+        statistics.probability_greater(some, []),
+        statistics.difference_of_shares((0, 0), (1, 2)),
+        statistics.range_of_means([some, [], some]),
+        statistics.range_of_shares([(1, 2), (0, 0)]),
+        survival.share_by([], 1, 2),
+    ):
         assert isinstance(found, Estimate)
         assert found.n == 0
-        assert found.p_value(0.5, True) == 1
+        assert np.isnan(found.value)
 
 
 def test_spread_is_of_the_runs_and_not_of_the_estimate():

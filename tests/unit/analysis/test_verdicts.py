@@ -119,8 +119,9 @@ def test_each_verdict_of_each_kind_of_comparison(tmp_path, kind, verdict):
     assert row.verdict == verdict, (row.estimate, row.low, row.high)
     assert row.n == N
     assert row.low <= row.estimate <= row.high
-    # A claim far beyond its threshold is unlikely by chance; short of it, it is not.
-    assert (row.p_value < 0.05) == (verdict == "reproduced")
+    assert not row.diverged
+    lines = {"reproduced": False, "inconclusive": True, "not reproduced": False}
+    assert row.at_threshold == lines.get(verdict, row.could_be_better)
 
 
 @pytest.mark.parametrize("verdict", DIGESTS)
@@ -160,7 +161,7 @@ def test_the_row_of_a_claim_is_that_of_its_decisive_part(tmp_path):
         for cell in (ONE, OTHER, THIRD)
     ]
     claims = {"C0": Claim(statement="…", section="…", figure=5, cell=ONE, parts=parts)}
-    (row,) = write_verdicts(results, claims).to_dict("records")
+    (row,) = write_verdicts(results, claims, {}).to_dict("records")
     assert row["verdict"] == "not reproduced"
     assert row["cells"] == OTHER
     assert row["estimate"] == 0.2
@@ -190,7 +191,7 @@ def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
     runs = results.runs.drop(columns="cell")
     write_table(tmp_path / RUNS, runs[~runs["run"].str.startswith(OTHER)])
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} runs are missing"):
-        write_verdicts(Results(tmp_path), about_the_other())
+        write_verdicts(Results(tmp_path), about_the_other(), {})
 
 
 def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
@@ -198,7 +199,7 @@ def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
     for path in (tmp_path / "runs" / OTHER).iterdir():
         path.unlink()
     with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} recordings are missing"):
-        write_verdicts(results, about_the_other())
+        write_verdicts(results, about_the_other(), {})
 
 
 def test_runs_without_a_value_are_not_paired_in_silence(tmp_path):

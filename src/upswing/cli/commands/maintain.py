@@ -6,7 +6,17 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import TEMPLATES, Named, Positional, Templates, results_folder
+from upswing.cli.options import (
+    CLAIMS,
+    SWEEPS,
+    TEMPLATES,
+    Claims,
+    Named,
+    Positional,
+    Sweeps,
+    Templates,
+    results_folder,
+)
 from upswing.cli.panel import Panel
 
 panel = Panel("Maintain")
@@ -40,11 +50,23 @@ def readme(
     readme: Annotated[Path, typer.Option(metavar="FILE", help="The file that is renewed.")] = Path(
         "README.md"
     ),
+    claims: Claims = CLAIMS,
+    sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Renew what the README shows of the results."""
     from upswing.report.readme import write_readme
+    from upswing.runs.study_file import read_study
+    from upswing.study import jobs
+    from upswing.study.claims import load_claims
+    from upswing.study.registration import of
+    from upswing.study.sweeps import load_sweeps
 
-    write_readme(results_folder(results, positional), templates, readme)
+    folder = results_folder(results, positional)
+    study = read_study(folder)
+    judged, swept = load_claims(claims, study), load_sweeps(sweeps, study)
+    codes = {f"code of {name}": jobs.sweep(one, study).fingerprint for name, one in swept.items()}
+    made_from = {"sweeps": of(study, judged, swept).sweeps, **codes}
+    write_readme(folder, templates, readme, judged, made_from)
 
 
 @panel.subcommand("screenshots")
@@ -56,7 +78,7 @@ def screenshots(
     ] = Path("docs/pictures"),
     run: Annotated[
         str, typer.Option(help="The run that is shown.")
-    ] = "full-control/table/alpha-0.01/seed-4",
+    ] = "full-control/table/alpha-0.01/seed-10004",
     task: Annotated[str, typer.Option(help="The task whose runs are compared.")] = "full-control",
 ) -> None:
     """Take the README's pictures of the recordings, in a viewer without a screen."""
