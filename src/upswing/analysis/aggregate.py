@@ -32,14 +32,16 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
 
     Of every measure mean, median and interquartile mean, each with its 95 % interval (``_low``,
     ``_high``): how sure the estimate is; and the 5th and 95th percentile of the runs (``_p05``,
-    ``_p95``): how they differ. The time to stability is Kaplan–Meier's, runs that never got there
-    being censored.
+    ``_p95``): how they differ. ``runs_kept``: of those that became stable, how many stand at the end;
+    ``frozen_…``: what was learned, followed without exploring. The time to stability is Kaplan–Meier's,
+    runs that never got there being censored.
     """
     rows = []
     for (task, architecture, alpha), every in runs.groupby(
         ["task", "architecture", "alpha"], sort=False, dropna=False
     ):
         group = every[every["diverged_at"].isna()]
+        stands = group["upright_at_end"] >= SUCCESS
         row: dict[str, Any] = {
             "cell": cell_of(every["run"].iloc[0]),
             "task": task,
@@ -51,7 +53,10 @@ def summarise(runs: pd.DataFrame) -> pd.DataFrame:
             "runs_stable": int(group["first_stable_step"].notna().sum()),
             "runs_without_fall_in_last_fifth": int((group["falls_last_fifth"] == 0).sum()),
             "runs_upright": int((group["upright_share"] >= SUCCESS).sum()),
-            "runs_upright_at_end": int((group["upright_at_end"] >= SUCCESS).sum()),
+            "runs_upright_at_end": int(stands.sum()),
+            "runs_kept": int((stands & group["first_stable_step"].notna()).sum()),
+            "frozen_success_share": float(group["greedy_success_share"].mean()),
+            "runs_frozen_all": int((group["greedy_success_share"] == 1).sum()),
         }
         times = [None if pd.isna(time) else float(time) for time in group["first_stable_step"]]
         middle = survival.median_time(times, float(row["steps"]))

@@ -13,18 +13,20 @@ from upswing import figures
 from upswing.physics.pendulum import Pendulum
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
+from upswing.report.animation import drawn, stretches
 from upswing.report.chapter import chapter
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
-from upswing.report.pictures import picture
+from upswing.report.findings import findings
+from upswing.report.pictures import data_of, picture
 from upswing.report.readings_shown import over_readings, rows, swept
 from upswing.report.registered import registered
 from upswing.report.scale import strip
-from upswing.report.solving import solving
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.provenance import provenance
 from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
 from upswing.runs.files.typed_table import Columns, read_table
+from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
 from upswing.study import paths
 from upswing.study.claim_parts import WEAKEST_FIRST
@@ -77,7 +79,9 @@ def write_report(results: Path, templates: Path) -> None:
     shown = {
         "study": study,
         "seeds_of_a_cell": f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0]),
-        "solving": solving(table, matrix),
+        "solving": [row for row in cells if study.tasks[row["task"]].judged_by == "upright"],
+        "animation": _animation(results),
+        "findings": findings({row["cell"]: row for row in cells}, verdicts),
         "registered": registered(results, study),
         "over": over_readings(results, templates, verdicts),
         "body": Pendulum(),
@@ -193,6 +197,12 @@ def _figures(results: Path) -> list[Row]:
             page |= {**json.loads(words.read_text("utf-8")), "picture": drawn, "missing": False}
         pages.append(page)
     return pages
+
+
+def _animation(results: Path) -> str:
+    """The moving picture as an address that holds all of it; empty without the cells that it shows."""
+    panels = stretches(Results(results))
+    return data_of(drawn(panels).encode()) if panels else ""
 
 
 def _beyond(results: Path) -> Row:

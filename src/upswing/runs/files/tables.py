@@ -56,7 +56,8 @@ OF_A_CELL: Columns = {
     "cell": "text", "task": "text", "architecture": "text", "alpha": "number", "steps": "whole",
     "runs": "whole", "runs_diverged": "whole", "runs_stable": "whole",
     "runs_without_fall_in_last_fifth": "whole",
-    "runs_upright": "whole", "runs_upright_at_end": "whole", "steps_per_second_median": "number",
+    "runs_upright": "whole", "runs_upright_at_end": "whole", "runs_kept": "whole",
+    "frozen_success_share": "number", "runs_frozen_all": "whole", "steps_per_second_median": "number",
     **{f"first_stable_step_{part}": "number" for part in ("median", "low", "high")},
     **{
         f"{measure}_{part}": "number"
