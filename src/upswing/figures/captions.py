@@ -1,11 +1,8 @@
 """Sentences that several captions share."""
 
-MEDIAN_BY_FALLS = (
-    "The run shown is the median one by its number of falls (ties: falls in the last fifth, seed)"
-)
-MEDIAN_BY_UPRIGHT = (
-    "The run shown is the median one by its share of upright steps, |φ| ≤ 20°, in the last fifth "
-    "(ties: mean reward, seed)"
+ORDERED_BY_FALLS = (
+    "The worst, the median and the best run by their number of falls (ties: falls in the last fifth, "
+    "seed)"
 )
 ENSEMBLE = "thin lines are single runs, the thick line their median"
 ANGLE_HISTOGRAM = (
@@ -14,6 +11,6 @@ ANGLE_HISTOGRAM = (
 )
 STANDS = "stands at the end (is upright for 90 % of its last 100,000 steps)"
 ORDERED_BY_UPRIGHT = (
-    "runs are ordered by their share of upright steps, |φ| ≤ 20°, in the last fifth "
-    "(ties: mean reward, seed)"
+    "The worst, the median and the best run by their share of upright steps, |φ| ≤ 20°, in the last "
+    "fifth (ties: mean reward, seed)"
 )

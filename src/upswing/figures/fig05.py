@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, ORDERED_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -18,16 +18,15 @@ FIGURE = Declaration(
 def draw(results: "Results") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs."""
     from upswing.figures import panels
-    from upswing.figures.style import grid_of_panels
+    from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    run, ensemble = results.median_run(CELL), results.ensemble(CELL)
-    figure, axes = grid_of_panels(2)
-    for row, steps in enumerate((5_000, None)):
-        panels.angle(axes[2 * row], run, CELL, steps)
-        panels.falls(axes[2 * row + 1], [(CELL, "table", ensemble)], steps)
+    rows = [Row(CELL, "table, α = 1", 5_000), Row(CELL, "table, α = 1")]
+    figure, runs = three_and_all(results, rows)
     caption = (
         "Q-learning with a table of 4 × 20 tiles in the balancing task, α = 1: the first 5,000 "
-        f"steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls of "
-        f"all {len(ensemble.seeds)} runs; {ENSEMBLE}."
+        f"steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. Right: falls of "
+        f"all {len(results.cell(CELL))} runs; {ENSEMBLE}. What to see: it soon falls less often, and "
+        f"never stops falling. {frequency(results, CELL)}"
     )
-    return panels.Drawing(figure, caption, [run.id])
+    return panels.Drawing(figure, caption, runs)

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, ORDERED_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -20,12 +20,15 @@ FIGURE = Declaration(
 def draw(results: "Results") -> "Drawing":
     """The angle and the falls for each of the four step sizes of the thesis."""
     from upswing.figures import panels
+    from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    figure, runs = panels.one_and_all(results, list(CELLS.items()))
-    count = len(results.cell(next(iter(CELLS))))
+    figure, runs = three_and_all(results, [Row(cell, label) for cell, label in CELLS.items()])
+    smallest = list(CELLS)[-1]
     caption = (
         "Q-learning with a table in the balancing task for four step sizes α. Left: the angle. "
-        f"{MEDIAN_BY_FALLS}. Right: falls of all {count} runs; {ENSEMBLE}. The scales on the right "
-        "differ."
+        f"{ORDERED_BY_FALLS}. Right: falls of all {len(results.cell(smallest))} runs; {ENSEMBLE}. The "
+        "scales on the right differ. What to see: the smaller α, the sooner the falls end. With the "
+        f"smallest, {frequency(results, smallest)}"
     )
-    return panels.Drawing(figure, caption, [run.id for run in runs])
+    return panels.Drawing(figure, caption, runs)

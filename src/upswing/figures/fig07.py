@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from upswing.figures.captions import ENSEMBLE, MEDIAN_BY_FALLS
+from upswing.figures.captions import ENSEMBLE, ORDERED_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
@@ -19,21 +19,16 @@ FIGURE = Declaration(
 def draw(results: "Results") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs beside the table's."""
     from upswing.figures import panels
-    from upswing.figures.style import grid_of_panels
     from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    run, ensemble, table = results.median_run(CELL), results.ensemble(CELL), results.ensemble(TABLE)
-    figure, axes = grid_of_panels(2)
-    for row, steps in enumerate((5_000, None)):
-        panels.angle(axes[2 * row], run, CELL, steps)
-        panels.falls(
-            axes[2 * row + 1], [(CELL, "networks", ensemble), (TABLE, "table", table)], steps
-        )
+    rows = [Row(CELL, "networks, α = 1", 5_000), Row(CELL, "networks, α = 1")]
+    figure, runs = three_and_all(results, rows, [(TABLE, "table")])
     caption = (
         "Q-learning with three networks of 80-5-1 neurons in the balancing task, α = 1: the first "
-        f"5,000 steps above, the whole run below. Left: the angle. {MEDIAN_BY_FALLS}. Right: falls "
-        f"of all {len(ensemble.seeds)} runs; {ENSEMBLE}, the dashed line the median of the table with "
-        "α = 1 (figure 5). "
-        f"{frequency(results, CELL)}"
+        f"5,000 steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. Right: falls "
+        f"of all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of the table "
+        "with α = 1 (figure 5). What to see: networks fall more often at first; those that learn it "
+        f"then hardly fall again, and some never learn it. {frequency(results, CELL)}"
     )
-    return panels.Drawing(figure, caption, [run.id])
+    return panels.Drawing(figure, caption, runs)

@@ -27,13 +27,14 @@ def draw(results: "Results") -> "Drawing":
     """The angle, and the upright share of all runs beside that of the controls."""
     from upswing.figures import panels
     from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    figure, runs = panels.one_and_all(results, [(CELL, "table")], list(CONTROLS.items()))
+    figure, runs = three_and_all(results, [Row(CELL, "table, α = 0.001")], list(CONTROLS.items()))
     caption = (
         "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
-        f"{ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no control and of "
-        "random actions. "
-        f"{frequency(results, CELL)}"
+        "random actions. A dark bar near ±135° is a cart that is pushed one way for ever, which holds "
+        f"the rod there. {frequency(results, CELL)}"
     )
-    return panels.Drawing(figure, caption, [run.id for run in runs])
+    return panels.Drawing(figure, caption, runs)

@@ -20,13 +20,14 @@ def draw(results: "Results") -> "Drawing":
     """The angle, and the upright share of all runs beside that of one table."""
     from upswing.figures import panels
     from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    figure, runs = panels.one_and_all(results, [(CELL, "two tables")], [(TABLE, "one table")])
+    rows = [Row(CELL, "two tables, α = 0.001")]
+    figure, runs = three_and_all(results, rows, [(TABLE, "one table")])
     caption = (
         "Modular Q-learning with two tables of 4 × 20 tiles at full control, α = 0.001. Left: "
-        f"{ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
+        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
         f"{len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of one table "
-        "(figure 8). "
-        f"{frequency(results, CELL)}"
+        f"(figure 8). {frequency(results, CELL)}"
     )
-    return panels.Drawing(figure, caption, [run.id for run in runs])
+    return panels.Drawing(figure, caption, runs)

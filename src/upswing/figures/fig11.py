@@ -24,13 +24,15 @@ def draw(results: "Results") -> "Drawing":
     """The angle, and the upright share of all runs beside that of networks without modules."""
     from upswing.figures import panels
     from upswing.figures.success_share import frequency
+    from upswing.figures.three_and_all import Row, three_and_all
 
-    figure, runs = panels.one_and_all(results, [(CELL, "modular")], [(SINGLE, "single")])
+    rows = [Row(CELL, "modular, α = 1")]
+    figure, runs = three_and_all(results, rows, [(SINGLE, "single")])
     caption = (
         "Modular Q-learning with two times three networks of 80-5-1 neurons at full control, "
-        f"α = 1. Left: {ANGLE_HISTOGRAM}; {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of "
+        f"α = 1. Left: {ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of "
         f"all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of networks of the "
-        "same size without modules (figure 9). "
+        "same size without modules (figure 9). What to see: some runs get up and stand, most do not. "
         f"{frequency(results, CELL)}"
     )
-    return panels.Drawing(figure, caption, [run.id for run in runs])
+    return panels.Drawing(figure, caption, runs)

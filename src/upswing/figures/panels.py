@@ -10,10 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from upswing.analysis.colours import colour
-from upswing.figures.style import grid_of_panels, stack_and_panel
 from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
-from upswing.runs.results import Ensemble, OneRun, Real, Results
-from upswing.runs.success import succeeds
+from upswing.runs.results import Ensemble, OneRun, Real
 
 POINTS = 200
 """Approximate number of points of an ensemble's line."""
@@ -113,60 +111,6 @@ def upright(axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]]) -> None:
     _ensemble(axes, lines, None)
     axes.set(ylabel="upright [% of steps]", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
-
-
-def one_and_all(
-    results: Results, cells: Sequence[tuple[str, str]], beside: Sequence[tuple[str, str]] = ()
-) -> tuple[Figure, list[OneRun]]:
-    """A row for each of ``cells`` (id, label): a single run's angle, and all its runs.
-
-    Balancing shows the median run as a line. Full control shows where the pendulum was: in the median
-    run, or in the worst, the median and the best where there is one cell only.
-
-    Args:
-        results: what is drawn.
-        cells: ids and labels of the cells.
-        beside: cells whose medians are drawn beside the ensembles, for comparison.
-    """
-    if len(cells) == 1 and results.task(cells[0][0]).judged_by == "upright":
-        return _three_and_all(results, cells[0], beside)
-    figure, panels = grid_of_panels(len(cells))
-    shown = []
-    compared = [(cell, label, results.ensemble(cell)) for cell, label in beside]
-    for row, (cell, label) in enumerate(cells):
-        left, right = panels[2 * row : 2 * row + 2]
-        shown.append(results.median_run(cell))
-        ensemble = results.ensemble(cell)
-        by_falls = ensemble.task.judged_by == "falls"
-        one_run = angle if by_falls else angle_histogram
-        one_run(left, shown[-1], cell)
-        left.set_title(f"Median run (seed {shown[-1].seed})")
-        all_runs = falls if by_falls else upright
-        all_runs(right, [(cell, label, ensemble), *compared])
-        if len(cells) > 1:
-            left.set_title(f"{label}: {left.get_title(loc='left').lower()}", loc="left")
-    return figure, shown
-
-
-def _three_and_all(
-    results: Results, cell: tuple[str, str], beside: Sequence[tuple[str, str]]
-) -> tuple[Figure, list[OneRun]]:
-    """Where the worst, the median and the best run of a cell were, and the upright share of all."""
-    figure, (stack, right) = stack_and_panel(3)
-    shown = results.worst_median_best(cell[0])
-    stand = succeeds(results.three_of(cell[0]), results.task(cell[0]))
-    for axes, rank, run, stands in zip(
-        stack, ("Worst", "Median", "Best"), shown, stand, strict=True
-    ):
-        angle_histogram(axes, run, cell[0])
-        ends = "stands at the end" if stands else "does not stand at the end"
-        axes.set_title(f"{rank} run (seed {run.seed}): {ends}")
-        if axes is not stack[-1]:
-            axes.tick_params(labelbottom=False)
-            axes.set_xlabel("")
-    compared = [(name, label, results.ensemble(name)) for name, label in beside]
-    upright(right, [(*cell, results.ensemble(cell[0])), *compared])
-    return figure, shown
 
 
 def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None) -> None:

@@ -52,12 +52,16 @@ def grid_of_panels(
     return figure, [panel for row in axes for panel in row]
 
 
-def stack_and_panel(rows: int) -> tuple[Figure, tuple[list[Axes], Axes]]:
-    """A figure of a stack of ``rows`` low panels on the left and one panel on the right."""
-    figure = plt.figure(figsize=(WIDTH, 1.35 * rows))
+def stacks_and_panels(rows: int, of: int) -> tuple[Figure, list[tuple[list[Axes], Axes]]]:
+    """A figure of ``rows``, each a stack of low panels on the left and one panel on the right."""
+    figure = plt.figure(figsize=(WIDTH, (0.78 * of + 0.3) * rows))
     grid = figure.add_gridspec(rows, 2, width_ratios=(3, 2))
-    stack = [figure.add_subplot(grid[row, 0]) for row in range(rows)]
-    return figure, (stack, figure.add_subplot(grid[:, 1]))
+    found = []
+    for row in range(rows):
+        left = grid[row, 0].subgridspec(of, 1, hspace=0.12)
+        stack = [figure.add_subplot(left[number]) for number in range(of)]
+        found.append((stack, figure.add_subplot(grid[row, 1])))
+    return figure, found
 
 
 def save(figure: Figure, place: Path) -> None:
