@@ -2,6 +2,7 @@
 
 import json
 from collections import Counter
+from math import atan, degrees
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from markupsafe import Markup
 
 from upswing import figures
 from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import ACCELERATIONS
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -85,6 +87,7 @@ def write_report(results: Path, templates: Path) -> None:
         "registered": registered(results, study),
         "over": over_readings(results, templates, verdicts),
         "body": Pendulum(),
+        "held": _held(Pendulum()),
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": {row["cell"]: row for row in cells},
@@ -197,6 +200,11 @@ def _figures(results: Path) -> list[Row]:
             page |= {**json.loads(words.read_text("utf-8")), "picture": drawn, "missing": False}
         pages.append(page)
     return pages
+
+
+def _held(body: Pendulum) -> float:
+    """Where a cart that is pushed one way for ever holds the rod, from upright [degrees] (eq. 13)."""
+    return 180 - degrees(atan(max(ACCELERATIONS) / body.gravity))
 
 
 def _animation(results: Path) -> str:

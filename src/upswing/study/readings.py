@@ -84,10 +84,10 @@ class Readings(BaseModel):
         10, "none", "which neurons of a network have a bias?", (NETWORKS,)
     )
     initial_weights: InitialWeights = _reading(
-        11, 0.1, "the first weights are uniform in ± this.", (NETWORKS,)
+        11, 0.5, "the first weights are uniform in ± this.", (NETWORKS,)
     )
     learning_rate: LearningRate = _reading(
-        12, 0.3, "backpropagation's own rate η, beside the α of the update rule.", (NETWORKS,)
+        12, 0.13, "backpropagation's own rate η, beside the α of the update rule.", (NETWORKS,)
     )
     error_sign: Literal["corrected", "printed"] = _reading(
         13, "corrected", "E = Q − (r + γ max Q′), or Q − r + γ max Q′ as printed.", (NETWORKS,)
