@@ -67,7 +67,7 @@ def write_readme(
     if (results / SELECTION).exists():
         selection = read_table(results / SELECTION, OF_A_SELECTION, "`make readings` makes it")
         with written(templates / "selection.csv") as beside:
-            selection.to_csv(beside, index=False, float_format="%.6g")
+            selection.drop(columns="readings").to_csv(beside, index=False, float_format="%.6g")
     pictures = readme.parent / PICTURES
     for name in FIGURES:
         source = results / figure(name, "png")
