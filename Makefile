@@ -69,7 +69,7 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 	@echo "The report is at results/smoke/report/index.html"
 
 .PHONY: readings
-readings: install ## Judge every claim under other readings too (half an hour on 2 cores; goes on where it stopped)
+readings: install ## Judge every claim under other readings too (40 minutes on 2 cores; goes on where it stopped)
 	@$(call run,config/config.yaml) -- with_readings
 	@echo "The report is at results/report/index.html#robust"
 
@@ -151,6 +151,13 @@ docs: install ## Build the documentation into build/docs; it reads without a net
 .PHONY: screenshots
 screenshots: install ## Renew the documentation's pictures of the recordings (needs a Vulkan driver: Mesa's)
 	@$(BIN)/upswing screenshots results --into docs/pictures
+
+.PHONY: exploratory
+exploratory: install ## The claims on the seeds 0 to 29, which were seen before, into results/exploratory; shown beside the others
+	@mkdir -p build
+	@sed 's/{first: 10000, count: [0-9]*}/{first: 0, count: 30}/; s#^results: results#results: results/exploratory#' config/config.yaml > build/exploratory.yaml
+	@$(call run,build/exploratory.yaml)
+	@$(BIN)/upswing exploratory results/exploratory
 
 .PHONY: readme
 readme: install ## Renew what README and documentation show of the results: verdicts, pictures, deviations

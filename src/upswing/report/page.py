@@ -18,6 +18,7 @@ from upswing.report import words
 from upswing.report.animation import drawn, stretches
 from upswing.report.chapter import chapter
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
+from upswing.report.exploratory import exploratory
 from upswing.report.findings import findings
 from upswing.report.pictures import data_of, picture
 from upswing.report.readings_shown import over_readings, rows, swept
@@ -85,6 +86,7 @@ def write_report(results: Path, templates: Path) -> None:
         "animation": _animation(results),
         "findings": findings({row["cell"]: row for row in cells}, verdicts),
         "registered": registered(results, study),
+        "exploratory": exploratory(templates),
         "over": over_readings(results, templates, verdicts),
         "body": Pendulum(),
         "held": _held(Pendulum()),

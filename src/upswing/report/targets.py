@@ -60,7 +60,9 @@ SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
 CHAPTER = (CHANGES, BOUND, CHOSEN, figure("bound", "svg"), figure("changes", "svg"))
 """What the page shows of the chapter beyond the thesis, once that has been run."""
 
-TEMPLATES = ("*.j2", "*.css", "*.js", "*.yaml", "*.json", "parts/*", "drawings/*")
+TEMPLATES = (
+    "*.j2", "*.css", "*.js", "*.yaml", "*.json", "exploratory.csv", "parts/*", "drawings/*",
+)  # fmt: skip
 
 
 def templates(folder: Path) -> list[str]:

@@ -69,6 +69,16 @@ def readme(
     write_readme(folder, templates, readme, judged, made_from)
 
 
+@panel.subcommand("exploratory")
+def exploratory(
+    positional: Positional = None, results: Named = None, templates: Templates = TEMPLATES
+) -> None:
+    """Keep the verdicts of a study on seeds that were seen before, to be shown beside others."""
+    from upswing.report.exploratory import write_exploratory
+
+    print(write_exploratory(results_folder(results, positional), templates))
+
+
 @panel.subcommand("screenshots")
 def screenshots(
     positional: Positional = None,
