@@ -1,6 +1,6 @@
 """The verdicts on seeds that had been looked at before: an exploratory column beside those that count.
 
-``make exploratory`` judges the claims on the seeds 0 to 29 and keeps what comes out beside the templates.
+``make exploratory`` judges the claims on the seeds 0 to 29; what comes out is kept among the templates.
 """
 
 from pathlib import Path
