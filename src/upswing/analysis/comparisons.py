@@ -37,6 +37,8 @@ def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
         case "range_of_means":
             return statistics.range_of_means(values)
     x, y = values
+    if part.paired:
+        return statistics.difference_of_pairs(x, y)
     functions = {
         "ratio_of_means": statistics.ratio_of_means,
         "ratio_of_sums": statistics.ratio_of_sums,
@@ -75,6 +77,9 @@ def samples(results: Results, part: Part, cells: tuple[str, ...]) -> list[NDArra
         return [_column(groups[0], str(part.measure)).dropna().to_numpy()]
     if part.kind == "ratio_of_sums":
         return [_known(groups[0], name) for name in (str(part.measure), str(part.per))]
+    if part.paired:
+        seeds = set.intersection(*(set(group["seed"]) for group in groups))
+        groups = [group[group["seed"].isin(seeds)].sort_values("seed") for group in groups]
     return [_known(group, str(part.measure)) for group in groups]
 
 

@@ -65,7 +65,7 @@ def draws(results: Results, part: Part, cells: tuple[str, ...]) -> Real:
         return _share(0, successes, n)
     if not all(len(one) for one in values):
         return np.full(DRAWS, np.nan)  # beyond nothing
-    together = part.kind == "ratio_of_sums"
+    together = part.kind == "ratio_of_sums" or part.paired
     means = [
         _weights(len(one), 0 if together else number) @ one for number, one in enumerate(values)
     ]

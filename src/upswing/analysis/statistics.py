@@ -117,6 +117,11 @@ def difference_of_means(x: Sample, y: Sample) -> Estimate:
     return of_means("difference of means", _difference, [x, y])
 
 
+def difference_of_pairs(x: Sample, y: Sample) -> Estimate:
+    """mean(x) − mean(y) of runs with the same seeds, in the same order; bootstrap of the pairs."""
+    return of_means("difference of means, paired", _difference, [x, y], of_the_same_runs=True)
+
+
 def _difference(a: Real, b: Real) -> Real:
     return a - b
 

@@ -132,6 +132,9 @@ class Part(Strict):
     at_least: Number | None = None
     at_most: Number | None = None
     partly: Number
+    paired: bool = (
+        False  # of `difference_of_means`: runs of the same seed are the same but for this
+    )
     fewest: Annotated[int, Field(ge=1)] = 1  # runs without which nothing is said
     only_if: dict[str, str] = Field(
         default_factory=dict
@@ -174,6 +177,8 @@ class Part(Strict):
             raise ValueError("`limit` goes with share_by, always")
         if (self.per is not None) != (self.kind in WITH_PER):
             raise ValueError("`per` goes with ratio_of_sums, always")
+        if self.paired and self.kind != "difference_of_means":
+            raise ValueError("`paired` goes with difference_of_means")
         return self
 
     @property
