@@ -72,7 +72,7 @@ report: "../report/study.rst"
 
 
 wildcard_constraints:
-    figure="[a-z0-9-]+",
+    figure="(?!readings-)[a-z0-9-]+",
     comparison="(task|claim)-[A-Za-z0-9-]+",
     number="[0-9]+",
 
