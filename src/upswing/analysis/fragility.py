@@ -11,7 +11,8 @@ import pandas as pd
 
 from upswing.runs.endings import ENDINGS, PERCENT
 from upswing.runs.results import Results
-from upswing.study.claims import Claim
+
+LAST_FIFTH = 20
 
 Verdicts = Callable[[Results], Mapping[str, str]]
 """The verdict on each claim."""
@@ -43,6 +44,8 @@ def over_ending(percent: int) -> Callable[[pd.DataFrame], pd.DataFrame]:
 
     def change(runs: pd.DataFrame) -> pd.DataFrame:
         names = {measure: name.format(percent) for measure, name in ENDINGS.items()}
+        if percent == LAST_FIFTH:  # it is measured over it already, with what is under way
+            del names["recovered_share"]
         return runs.assign(
             **{measure: runs[name] for measure, name in names.items() if name in runs}
         )
@@ -56,14 +59,19 @@ def half(number: int) -> Callable[[pd.DataFrame], pd.DataFrame]:
 
 
 def fragile_because(
-    results: Results, claims: Mapping[str, Claim], verdicts_of: Verdicts
+    results: Results, whole: Mapping[str, str], verdicts_of: Verdicts
 ) -> dict[str, list[str]]:
-    """For each claim why its verdict is fragile; nothing for one that is not."""
-    whole = verdicts_of(results)
-    found: dict[str, list[str]] = {name: [] for name in claims}
+    """For each claim why its verdict is fragile; nothing for one that is not.
+
+    Args:
+        results: the runs.
+        whole: the verdict on each claim by all of them.
+        verdicts_of: judges them by others.
+    """
+    found: dict[str, list[str]] = {name: [] for name in whole}
     for words, seen in _views(results):
         other = verdicts_of(seen)
-        for name in claims:
+        for name in whole:
             if other[name] != whole[name]:
                 found[name].append(f"{words}: {other[name]}")
     return found

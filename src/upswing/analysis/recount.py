@@ -15,7 +15,7 @@ from upswing.analysis.ablation import changes
 from upswing.analysis.aggregate import summarise
 from upswing.analysis.beyond_tables import OF_A_CANDIDATE, OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.search import chosen
-from upswing.analysis.verdicts import LEDGER, judge_all
+from upswing.analysis.verdicts import judge_all
 from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
 from upswing.runs.files.typed_table import read_table
@@ -25,7 +25,16 @@ from upswing.study.claims import Claim, canonical_claims
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
-from upswing.study.paths import CELLS, CHANGES, CHOSEN, EVIDENCE, RUNS, SHORTEST, VERDICTS
+from upswing.study.paths import (
+    CELLS,
+    CHANGES,
+    CHOSEN,
+    EVIDENCE,
+    LEDGER_OF_VERDICTS,
+    RUNS,
+    SHORTEST,
+    VERDICTS,
+)
 
 ALIKE = 1e-9
 """Relative difference that statistics may have from machine to machine."""
@@ -81,7 +90,7 @@ def recount(
 def judged_by(results: Path) -> str | None:
     """The claims by which the verdicts of a folder were judged, as one line; None if nobody knows."""
     try:
-        return read_ledger(ledger_path(results, LEDGER)).made_from.get("claims")
+        return read_ledger(ledger_path(results, LEDGER_OF_VERDICTS)).made_from.get("claims")
     except BadInput:
         return None
 
@@ -89,7 +98,7 @@ def judged_by(results: Path) -> str | None:
 def _over(results: Path) -> dict[str, Any]:
     """What the readings said of each claim when it was judged."""
     found: dict[str, Any] = json.loads(
-        read_ledger(ledger_path(results, LEDGER)).made_from.get("readings", "{}")
+        read_ledger(ledger_path(results, LEDGER_OF_VERDICTS)).made_from.get("readings", "{}")
     )
     return found
 

@@ -16,10 +16,7 @@ from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.study.claim_parts import Bound, Part, Verdict, weakest
 from upswing.study.claims import Claim, canonical_claims, cells_of_claims
-from upswing.study.paths import EVIDENCE, VERDICTS
-
-LEDGER = "verdicts"
-"""The ledger of both tables; it has the claims by which they were judged."""
+from upswing.study.paths import EVIDENCE, LEDGER_OF_VERDICTS, VERDICTS
 
 
 class Evidence(NamedTuple):
@@ -74,9 +71,8 @@ def write_verdicts(results: Results, claims: Mapping[str, Claim], over: Over) ->
     tables = [results.folder / EVIDENCE, results.folder / VERDICTS]
     for path, table in zip(tables, (evidence, verdicts), strict=True):
         write_table(path, table)
-    seal(
-        results.folder, LEDGER, tables, claims=canonical_claims(claims), readings=canonical_over(over)
-    )  # fmt: skip
+    judged_by = {"claims": canonical_claims(claims), "readings": canonical_over(over)}
+    seal(results.folder, LEDGER_OF_VERDICTS, tables, **judged_by)
     return verdicts
 
 
@@ -92,7 +88,9 @@ def judge_all(
     """The table of verdicts, and that of the evidence."""
     evidence = evidence_of(results, claims)
     because = fragile_because(
-        results, claims, lambda seen: verdicts_by(claims, evidence_of(seen, claims))
+        results,
+        verdicts_by(claims, evidence),
+        lambda seen: verdicts_by(claims, evidence_of(seen, claims)),
     )
     verdicts = sum_up(results, claims, evidence)
     rows: list[dict[str, Any]] = []

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from upswing.analysis.robustness.shipped import SHIPPED
+from upswing.analysis.robustness.shipped import read_shipped
 from upswing.analysis.robustness.tables import (
     OF_A_CAUSE,
     OF_A_READING,
@@ -31,19 +31,16 @@ def over_readings(results: Path, templates: Path, verdicts: list[Row]) -> Row:
     """How the claims do over readings: where that is from, and of which claims it is known."""
     own = (results / ROBUST).exists()
     known = [row["claim"] for row in verdicts if not pd.isna(row["weighted_share"])]
-    shipped = templates / SHIPPED
-    found: Row = {"own": own, "known": known, "made_from": {}, "differs": []}
-    if shipped.exists():
-        content = json.loads(shipped.read_text("utf-8"))
-        found["made_from"] = content["made_from"]
-        if own:  # this study's own sweeps, beside those that the project brings along
-            found["differs"] = [
-                row["claim"]
-                for row in verdicts
-                if row["claim"] in content["claims"]
-                and row["grade"] != content["claims"][row["claim"]]["grade"]
-            ]
-    return found
+    shipped = read_shipped(templates)
+    # This study's own sweeps, beside those that the project brings along.
+    differs = [
+        row["claim"]
+        for row in verdicts
+        if own
+        and row["claim"] in shipped.claims
+        and row["grade"] != shipped.claims[row["claim"]]["grade"]
+    ]
+    return {"own": own, "known": known, "made_from": shipped.made_from, "differs": differs}
 
 
 def swept(results: Path, study: Study) -> Row:

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-from upswing.analysis.verdicts import LEDGER
 from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
+from upswing.study.paths import LEDGER_OF_VERDICTS
 from upswing.study.registration import REGISTRATION, checksum_of, load_registration, seeds_of
 
 Row = dict[str, Any]
@@ -22,7 +22,7 @@ def registered(results: Path, study: Study) -> Row | None:
         "readings": checksum_of(study.readings.model_dump_json()),
     }
     try:
-        claims = read_ledger(ledger_path(results, LEDGER)).made_from["claims"]
+        claims = read_ledger(ledger_path(results, LEDGER_OF_VERDICTS)).made_from["claims"]
         now["claims"] = checksum_of(claims)
     except (BadInput, KeyError):
         now["claims"] = ""

@@ -1,6 +1,8 @@
 """How a run ended, over endings of several lengths: would another window have said otherwise?
 
-From the windows of a run, a thousandth of it each, so that every ending is a whole number of them.
+From the windows of a run, a thousandth of it each, so that every ending is a whole number of them. An
+excursion below the horizontal counts where it begins, so one that is under way when an ending begins
+does not (in the last fifth's ``recovered_share`` it does).
 """
 
 from typing import Any

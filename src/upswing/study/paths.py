@@ -33,6 +33,8 @@ EDITS = "tables/edits.parquet"
 FIGURES = "figures"
 RECORDINGS = "recordings"
 CHECKSUMS = "checksums"
+LEDGER_OF_VERDICTS = "verdicts"
+"""The ledger of verdicts and evidence; it has the claims by which they were judged."""
 JOB_COSTS = "benchmarks"
 
 PAGE = "report/index.html"

@@ -9,7 +9,8 @@ from upswing.analysis.verdicts import write_verdicts
 from upswing.cli.main import main
 from upswing.runs.files.tables import write_table
 from upswing.study.claims import Claim
-from upswing.study.paths import RUNS
+from upswing.study.errors import BadInput
+from upswing.study.paths import EVIDENCE, RUNS, VERDICTS
 
 
 @pytest.fixture
@@ -19,7 +20,7 @@ def two_folders(tmp_path):
     claims = {"C1": Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])}
 
     def make(name, x):
-        write_verdicts(made_up(tmp_path / name, swing_ups=[x, ZERO, ZERO]), claims)
+        write_verdicts(made_up(tmp_path / name, swing_ups=[x, ZERO, ZERO]), claims, {})
         return tmp_path / name
 
     return make
@@ -45,6 +46,32 @@ def test_a_changed_verdict_and_a_changed_run_are_named(two_folders, capsys):
     assert [estimate[2:] for estimate in found.parted_estimates] == [(1.0, 0.2)]
     assert main(["compare", str(a), str(b)]) == 1
     assert "C1: reproduced → not reproduced" in capsys.readouterr().out
+
+
+COMPARED = {
+    RUNS: ["run", "digest"],
+    VERDICTS: ["claim", "verdict"],
+    EVIDENCE: ["claim", "part", "cells", "estimate", "low", "high"],
+}
+"""What two folders are compared by."""
+
+
+def test_results_of_another_version_are_compared_by_what_they_have(two_folders):
+    a, b = two_folders("a", share_of(1)), two_folders("b", share_of(0.2))
+    before = compare(a, b)
+    for table, columns in COMPARED.items():
+        pd.read_parquet(a / table)[columns].assign(p_value=0.5).to_parquet(a / table)
+    assert compare(a, b) == before
+    assert before.changed_verdicts
+    for table, columns in COMPARED.items():
+        frame = pd.read_parquet(a / table)
+        for column in columns:
+            frame.drop(columns=column).to_parquet(a / table)
+            with pytest.raises(
+                BadInput, match=f"{table}: is no such table: it has no column {column}"
+            ):
+                compare(a, b)
+        frame.to_parquet(a / table)
 
 
 def test_a_folder_that_was_never_judged(two_folders, tmp_path, capsys):

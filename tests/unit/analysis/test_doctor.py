@@ -9,11 +9,13 @@ import pandas as pd
 import pytest
 
 from upswing.analysis.doctor import delete_orphans, examine
+from upswing.analysis.verdicts import OVER_READINGS, write_verdicts
 from upswing.cli.main import main
 from upswing.figures import draw
 from upswing.report.page import write_report
 from upswing.runs.files.ledger import ledger_path, ledgers, read_ledger, seal
 from upswing.runs.results import Results
+from upswing.study.claims import load_claims
 from upswing.study.errors import BadInput
 from upswing.study.ids import RUN_FILES
 
@@ -202,6 +204,19 @@ def test_verdicts_by_other_claims_are_a_note(folder, tmp_path):
     diagnosis = examine(folder, claims)
     assert diagnosis.findings == []
     assert any("were not judged again" in note for note in diagnosis.notes)
+
+
+def test_verdicts_are_judged_again_with_what_the_readings_said(folder):
+    claims = load_claims(Path("config/claims.yaml"))
+    said = dict.fromkeys(OVER_READINGS, 0.9) | {"grade": "depends on the reading"}
+    verdicts = write_verdicts(Results(folder), claims, {"C1": said, "C16": said})
+    assert examine(folder).findings == []
+    verdicts.loc[verdicts["claim"] == "C16", "weighted_share"] = 0.97
+    verdicts.to_parquet(folder / "tables/verdicts.parquet")
+    resealed(folder, "verdicts")
+    assert found(folder) == [
+        ("tables/verdicts.parquet", "is not what its runs come to: row 15 has weighted_share 0.97 in place of 0.9")
+    ]  # fmt: skip
 
 
 def test_what_has_no_checksum_is_named(folder):

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.unit.analysis.test_sweeps import STUDY as SWEPT
-from tests.unit.analysis.test_sweeps import SWEEPS
+from tests.unit.analysis.small_sweeps import STUDY as SWEPT
+from tests.unit.analysis.small_sweeps import SWEEPS
 from upswing.analysis.beyond_tables import OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.robustness.tables import (
     OF_A_CAUSE,
@@ -23,6 +23,7 @@ from upswing.optimal.tables import OF_THE_BOUND, OF_THE_MAPS
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH
 from upswing.runs.files.tables import JUDGED
 from upswing.runs.files.typed_table import read_table
+from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import OF_A_SWEPT_RUN, path_of
 from upswing.study.claim_parts import Verdict
@@ -42,6 +43,7 @@ from upswing.study.paths import (
     ROBUST,
     RUNS,
     SELECTION,
+    TILES,
     VERDICTS,
 )
 from upswing.study.sweeps import groups, load_sweeps
@@ -176,6 +178,18 @@ def test_a_foreign_table_of_a_sweep_is_refused(tmp_path, kind, capsys):
         path.parent.mkdir(parents=True, exist_ok=True)
         (whole if kind == "another sweep's" else foreign(kind, whole)).to_parquet(path)
     refused(["readings", "--sweeps", file, tmp_path], paths[0], capsys)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_foreign_table_of_the_tiles_is_refused(tmp_path, kind):
+    path = tmp_path / TILES
+    path.parent.mkdir()
+    foreign(kind, of_columns({"angle": "number", "success": "truth"})).to_parquet(path)
+    with pytest.raises(BadInput) as caught:
+        _ = Results(tmp_path).tile_policy
+    (line,) = caught.value.problems
+    assert line.startswith(f"{path}: ")
+    assert line.endswith(f"`upswing tiles {tmp_path}` makes it")
 
 
 @pytest.mark.parametrize("table", [RUNS, CELLS, VERDICTS, EVIDENCE])

@@ -7,8 +7,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from tests.made_up import FROM, part
 from upswing.analysis.robustness.judging import decisive, summary, sweep_of
-from upswing.study.claims import load_claims
+from upswing.study.claims import Claim, load_claims
 from upswing.study.config import load
 from upswing.study.sweeps import (
     Sweep,
@@ -34,7 +35,7 @@ def grid_of(holds):
                 "claim": "C1", "sweep": "networks", "biases": biases, "initial_weights": str(weights),
                 "readings": json.dumps({"biases": biases, "initial_weights": weights}),
                 "holds": held, "estimate_holds": held, "verdict": "partly" if held else "inconclusive",
-                "is_default": False,
+                "probability": 0.9 if held else 0.2, "is_default": biases == "none" and weights == 0.1,
             }
         )  # fmt: skip
     return pd.DataFrame(rows)
@@ -59,7 +60,24 @@ def test_two_readings_that_decide_together_are_a_pair():
 
 def test_nothing_decides_what_is_always_the_same():
     assert decisive(grid_of(lambda *_: True), {"networks": GRID}).empty
-    assert summary(grid_of(lambda *_: True)).at[0, "holds"] == 9
+
+
+def test_a_claim_is_summed_up_over_its_readings():
+    """It holds under six of nine, each as likely as any other, for the sweep has no reports."""
+    judged = grid_of(lambda biases, _: biases != "both")
+    claims = {
+        "C1": Claim(statement="…", section="…", parts=[part("share_contracting", [], **FROM)])
+    }
+    no_runs = pd.DataFrame({"cell": [], "readings": [], "diverged_at": []})
+    (row,) = summary(judged, {"networks": GRID}, claims, {"networks": no_runs}).to_dict("records")
+    assert (row["readings"], row["holds"], row["estimate_holds"]) == (9, 6, 6)
+    assert (row["partly"], row["inconclusive"], row["reproduced"]) == (6, 3, 0)
+    assert row["default"] == "partly"
+    assert row["held_share"] == pytest.approx(6 / 9)
+    expected = (6 * 0.9 + 3 * 0.2) / 9
+    shares = [row[f"weighted_{what}"] for what in ("share", "low", "high")]
+    assert shares == pytest.approx([expected] * 3)
+    assert (row["grade"], row["left_out"], row["by_prior"]) == ("depends on the reading", "", "")
 
 
 def test_changes_alone_and_in_pairs_that_turn_a_claim():

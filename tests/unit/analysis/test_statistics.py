@@ -101,6 +101,17 @@ def test_two_counts_of_the_same_runs_are_drawn_together_as_scipy_does():
     assert (same.low, same.high) == pytest.approx((0.25, 0.25))
 
 
+def test_pairs_are_drawn_together_as_scipy_does():
+    x = gamma(5, 40)
+    y = x + np.random.default_rng(8).normal(0, 0.2, 40)
+    mine = statistics.difference_of_pairs(x, y)
+    assert mine.value == pytest.approx(x.mean() - y.mean())
+    assert_alike(mine, scipys((x, y), difference, paired=True))
+    assert statistics.difference_of_pairs(x, x)[:3] == (0, 0, 0)
+    apart = statistics.difference_of_means(x, y)
+    assert apart.high - apart.low > 3 * (mine.high - mine.low)
+
+
 def test_two_counts_of_the_same_runs_are_of_as_many_runs():
     with pytest.raises(ValueError, match=r"samples of the same runs differ: \[3, 2\]"):
         statistics.ratio_of_sums([1, 2, 3], [1, 2])

@@ -1,106 +1,52 @@
-"""Sweeps over readings: what is swept, and what comes of it."""
+"""What is swept: readings, cells, seeds and rounds of the sweeps."""
 
 import itertools
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
-from tests.helpers import ARCHITECTURES
-from upswing.analysis.robustness.selection import CELLS
+from tests.unit.analysis.small_sweeps import STUDY, loaded
 from upswing.analysis.robustness.write import write_readings
-from upswing.figures.readings import draw_readings
-from upswing.runs.rows import collected
 from upswing.runs.study_file import canonical, write_study
-from upswing.runs.sweep import write_group
-from upswing.runs.train import train
-from upswing.study.claims import load_claims
-from upswing.study.config import load, validated
+from upswing.study.config import load
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
-from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
-from upswing.study.readings import Readings
 from upswing.study.sweeps import (
+    CHOOSING,
+    SEEDS_OF_A_JOB,
     canonical_of,
     content_of,
     groups,
     load_sweeps,
     options_of,
+    readings_of,
     specs,
 )
 
-STUDY = validated(
-    {
-        "study": {
-            "seeds": 3,
-            "tasks": {
-                "balancing": {"kind": "balancing", "steps": 2_000},
-                "full-control": {"kind": "full-control", "steps": 2_000},
-            },
-            "architectures": {
-                name: ARCHITECTURES[name]
-                for name in ("table", "networks-5", "networks-30", "modular-networks-5", "random")
-            },
-            "experiments": [
-                {"tasks": ["balancing"], "architectures": ["table", "networks-5"], "alphas": [1]},
-                {"tasks": ["balancing"], "architectures": ["table"], "alphas": [0.001]},
-                {"tasks": ["balancing"], "architectures": ["random"]},
-                {
-                    "tasks": ["full-control"],
-                    "architectures": ["networks-30", "modular-networks-5"],
-                    "alphas": [1],
-                },
-            ],
-        }
-    }
-)
-SWEEPS = """
-selection:
-  vary: [biases, initial_weights]
-  how: grid
-  first_seed: 1000
-  seeds: 2
-  cells: [balancing/networks-5/alpha-1, full-control/networks-30/alpha-1, full-control/modular-networks-5/alpha-1]
-networks:
-  vary: [biases, initial_weights]
-  how: grid
-  seeds: 2
-  cells: [balancing/random/alpha-none, balancing/table/alpha-1, balancing/networks-5/alpha-1, full-control/modular-networks-5/alpha-1]
-tables:
-  vary: [first_q, reset, wrap]
-  how: pairs
-  without: [[reset, wrap]]
-  seeds: 2
-  cells: [balancing/random/alpha-none, balancing/table/alpha-1]
-  cells_of_singles: [balancing/table/alpha-0.001]
-"""
+TABLE = "balancing/table/alpha-1"
 
 
 @pytest.fixture(scope="module")
-def swept(tmp_path_factory):
-    """A folder in which small sweeps were run, and the sweeps."""
-    folder = tmp_path_factory.mktemp("swept")
-    (folder / "readings.yaml").write_text(SWEEPS, "utf-8")
-    write_study(canonical(STUDY), folder)
-    sweeps = load_sweeps(folder / "readings.yaml", STUDY)
-    for name, sweep in sweeps.items():
-        for group in groups(sweep, STUDY):
-            write_group(folder, STUDY, name, sweep, group.name)
-    return folder, sweeps
+def sweeps(tmp_path_factory):
+    return loaded(tmp_path_factory.mktemp("sweeps"))
 
 
-# What is swept.
+@pytest.fixture(scope="module")
+def ours():
+    """The project's own study and sweeps."""
+    study = load(Path("config/config.yaml"))
+    return study, load_sweeps(Path("config/readings.yaml"), study)
 
 
-def test_a_grid_is_every_combination_once(swept):
-    _, sweeps = swept
-    members = [m for group in groups(sweeps["networks"], STUDY) for m in group.members]
+def test_a_grid_is_every_combination_once(sweeps):
+    members = readings_of(sweeps["networks"], STUDY)
     expected = itertools.product(options_of("biases"), options_of("initial_weights"))
     assert [tuple(m.values()) for m in members] == list(expected)
+    run = [m for group in groups(sweeps["networks"], STUDY) for m in group.members]
+    assert run == [*members, {}]  # and once what is beside
 
 
-def test_pairs_are_the_study_single_changes_and_two_at_a_time(swept):
-    _, sweeps = swept
+def test_pairs_are_the_study_single_changes_and_two_at_a_time(sweeps):
     members = [m for group in groups(sweeps["tables"], STUDY) for m in group.members]
     assert len({canonical_of(m) for m in members}) == len(members)
     assert [len(m) for m in members].count(0) == 1
@@ -111,36 +57,97 @@ def test_pairs_are_the_study_single_changes_and_two_at_a_time(swept):
     assert {"reset", "wrap"} not in pairs
 
 
-def test_the_project_s_own_sweeps_fit_its_study():
-    study = load(Path("config/config.yaml"))
-    sweeps = load_sweeps(Path("config/readings.yaml"), study)
-    assert set(sweeps) == {"selection", "networks", "tables"}
-    assert set(CELLS.values()) == set(sweeps["selection"].cells)
+def runs_of(sweep, group, overrides):
+    """The seeds of each cell of a group under a reading."""
+    return {spec.cell: spec.seeds for spec in specs(sweep, STUDY, overrides, group)}
+
+
+def test_every_round_has_the_seeds_that_no_round_before_had(sweeps):
+    sweep = sweeps["networks"]
+    simple, large, modular, other = (
+        "balancing/networks-5/alpha-1", "full-control/networks-30/alpha-1",
+        "full-control/modular-networks-5/alpha-1", "full-control/networks-5/alpha-1",
+    )  # fmt: skip
+    own = {group.name: group for group in groups(sweep, STUDY)}
+    first = next(iter(own))
+    last = ["beside", "round-2_seeds-1002-to-1003", "round-3_seeds-1004-to-1004"]
+    assert list(own)[-3:] == last
+    reading = {"biases": "both", "initial_weights": 1}
+    assert runs_of(sweep, own[first], reading) == {
+        simple: (1000, 1001), modular: (1000, 1001), large: (1000,),
+    }  # fmt: skip
+    assert runs_of(sweep, own["beside"], {}) == dict.fromkeys(sweep.beside, (1000, 1001, 1002))
+    # Of the large networks every third seed, counted from the first.
+    assert runs_of(sweep, own[last[1]], reading) == {
+        simple: (1002, 1003), modular: (1002, 1003), other: (1002, 1003), large: (1003,),
+    }  # fmt: skip
+    assert runs_of(sweep, own[last[2]], reading) == dict.fromkeys((simple, modular, other), (1004,))
+    assert [own[name].round for name in (first, *last)] == [1, 1, 2, 3]
+    assert sweep.last_seed == 1004
+
+
+def test_a_long_round_is_several_jobs(ours):
+    study, sweeps = ours
+    sweep = sweeps["networks"]
+    for number, one in enumerate(sweep.rounds, 2):
+        own = [group.seeds for group in groups(sweep, study) if group.round == number]
+        before = (sweep.seeds, *(other.seeds for other in sweep.rounds))[number - 2]
+        first = sweep.first_seed
+        assert [seed for seeds in own for seed in seeds] == list(
+            range(first + before, first + one.seeds)
+        )
+        assert max(map(len, own)) <= SEEDS_OF_A_JOB
+
+
+def test_a_costly_cell_of_singles_is_run_where_at_most_one_reading_differs(sweeps):
+    sweep, costly = sweeps["tables"], "balancing/table/alpha-0.001"
+    for group in groups(sweep, STUDY):
+        for overrides in group.members:
+            assert (costly in runs_of(sweep, group, overrides)) == (len(overrides) <= 1)
+
+
+def test_the_project_s_own_sweeps_fit_its_study(ours):
+    study, sweeps = ours
+    assert set(sweeps) == {"networks", "tables"}
+    assert CHOOSING in sweeps
+    judged = {seed for spec in Matrix(study).cells.values() for seed in spec.seeds}
     for sweep in sweeps.values():
         assert sweep.seeds >= 10
-        verdict_seeds, own = (
-            set(study.seeds),
-            set(range(sweep.first_seed, sweep.first_seed + sweep.seeds)),
-        )
-        assert (sweep is sweeps["selection"]) == verdict_seeds.isdisjoint(own)
-    assert sum(len(group.members) for group in groups(sweeps["networks"], study)) == 3 * 3 * 3 * 5
+        assert judged.isdisjoint(range(sweep.first_seed, sweep.last_seed + 1))
+        assert {report.cell for report in sweep.reports.values()} <= set(sweep.cells)
+    choosing = sweeps[CHOOSING]
+    assert len(readings_of(choosing, study)) == 3 * 3 * 3 * 12
+    shown = {name: (one.figure, one.shows) for name, one in choosing.reports.items()}
+    assert shown == {"p7": (7, "success"), "p9": (9, "failure"), "p11": (11, "both")}
+    sizes = [len(readings_of(choosing, study)), *(one.readings for one in choosing.rounds)]
+    assert sizes == sorted(set(sizes), reverse=True)
 
 
-def test_what_a_job_depends_on_is_in_its_checksum(swept):
-    _, sweeps = swept
-    group = groups(sweeps["networks"], STUDY)[0]
+def test_what_a_job_depends_on_is_in_its_checksum(sweeps):
+    sweep = sweeps["networks"]
+    by_round = {group.round: group for group in groups(sweep, STUDY) if group.name != "beside"}
+    for group in by_round.values():
 
-    def of(study):
-        return content_of(sweeps["networks"], study, group, Matrix(study).cells)
+        def of(study=STUDY, swept=sweep, asked=group):
+            return content_of(swept, study, asked, Matrix(study).cells)
 
-    before = of(STUDY)
-    more_seeds = STUDY.model_copy(update={"seeds": (0, 1, 2, 3)})
-    assert of(more_seeds) == before
-    other_epsilon = STUDY.model_copy(update={"epsilon": 0.1})
-    assert of(other_epsilon) != before
-    readings = STUDY.readings.model_copy(update={"biases": "both"})
-    # The grid fixes it anyway.
-    assert of(STUDY.model_copy(update={"readings": readings})) == before
+        before = of()
+        assert of(STUDY.model_copy(update={"seeds": (0, 1, 2, 3)})) == before
+        assert of(STUDY.model_copy(update={"epsilon": 0.1})) != before
+        readings = STUDY.readings.model_copy(update={"biases": "both"})
+        # The grid fixes it anyway.
+        assert of(STUDY.model_copy(update={"readings": readings})) == before
+        rate = STUDY.readings.model_copy(update={"learning_rate": 0.5})
+        assert of(STUDY.model_copy(update={"readings": rate})) != before
+        assert of(swept=sweep.model_copy(update={"every": {}})) != before
+        assert of(asked=group._replace(seeds=range(7, 9))) != before
+        assert of(asked=group._replace(members=[{"biases": "both"}])) != before
+        # Which rounds follow, and what the author reports, changes no run.
+        assert of(swept=sweep.model_copy(update={"rounds": (), "reports": {}})) == before
+
+
+NETWORKS = "networks: {vary: [biases], how: grid, seeds: 4, cells: [balancing/networks-5/alpha-1]"
+REPORT = "reports: {p7: {figure: 7, cell: balancing/networks-5/alpha-1, shows: success}}"
 
 
 @pytest.mark.parametrize(
@@ -152,6 +159,17 @@ def test_what_a_job_depends_on_is_in_its_checksum(swept):
         ("tables: {vary: [ties], how: grid, seeds: 2}", "tables.cells"),
         ("tables: {vary: [ties], without: [[ties, wrap]], how: grid, seeds: 2, cells: [balancing/table/alpha-1]}", "\"wrap\": no such reading"),
         ("- 3", "must hold keys and values"),
+        (f"{NETWORKS}, rounds: [{{readings: 2, seeds: 9}}]}}", "networks.reports: missing: rounds need them"),
+        (f"{NETWORKS}, {REPORT}, rounds: [{{readings: 2, seeds: 4}}]}}", "networks.rounds: [4, 4]: each round has more seeds"),
+        (f"{NETWORKS}, {REPORT}, rounds: [{{readings: 0, seeds: 9}}]}}", "networks.rounds[0].readings: 0: "),
+        (f"{NETWORKS}, {REPORT}, first_seed: 4294967290, rounds: [{{readings: 2, seeds: 9}}]}}", "the last is beyond"),
+        (f"{NETWORKS}, {REPORT.replace('7,', '4,')}}}", "networks.reports.p7.figure: 4: "),
+        (f"{NETWORKS}, {REPORT.replace('success', 'succes')}}}", "did you mean 'success'?"),
+        (f"{NETWORKS}, {REPORT.replace('balancing', 'full-control')}}}", "networks.reports.p7: \"full-control/networks-5/alpha-1\": is run by no round"),
+        (f"{NETWORKS}, every: {{{TABLE}: 2}}}}", f"networks.every: \"{TABLE}\": is run by no round"),
+        (f"{NETWORKS}, every: {{balancing/networks-5/alpha-1: 0}}}}", "networks.every.balancing/networks-5/alpha-1: 0: "),
+        (f"{NETWORKS}, beside: [balancing/table/alpha-0.7]}}", "networks.beside[0]"),
+        (f"{NETWORKS}, cells_of_rounds: [balancing/table/alpha-0.7]}}", "networks.cells_of_rounds[0]"),
     ],
 )  # fmt: skip
 def test_bad_sweeps_are_explained(tmp_path, text, expected):
@@ -179,70 +197,3 @@ def test_a_study_without_the_cells_sweeps_nothing(tmp_path):
     write_study(canonical(STUDY), tmp_path)
     with pytest.raises(BadInput, match="no sweep"):
         write_readings(tmp_path, {}, {})
-
-
-# What comes of it.
-
-
-def test_a_swept_run_is_the_run_that_training_makes(swept, tmp_path):
-    folder, sweeps = swept
-    under = {"first_q": "pessimistic"}
-    rows = pd.read_parquet(folder / "readings/tables/as-the-study.parquet")
-    rows = rows[rows["readings"] == canonical_of(under)]
-    study = STUDY.model_copy(update={"readings": Readings(first_q="pessimistic"), "seeds": (0, 1)})
-    matrix = Matrix(study)
-    write_study(canonical(study), tmp_path)
-    for spec in specs(sweeps["tables"], STUDY, under):
-        train(spec, tmp_path)
-    cells = {spec.cell for spec in specs(sweeps["tables"], STUDY, under)}
-    for cell in set(matrix.cells) - cells:
-        train(matrix.cells[cell], tmp_path)
-    trained = collected(tmp_path, matrix.cells.values()).set_index("run")
-    assert len(rows) == 6
-    for row in rows.to_dict("records"):
-        compared = ["falls", "upright_share", "mean_reward", "greedy_success_share"]
-        if row["architecture"] == "table":  # a control's TD errors are stored as unknown
-            compared.append("digest")
-        for name in compared:
-            assert row[name] == trained.at[row["run"], name], (row["run"], name)
-
-
-def test_its_tables_and_figures_are_made(swept):
-    folder, sweeps = swept
-    claims = load_claims(Path("config/claims.yaml"))
-    few = {name: claims[name] for name in ("C1", "C2", "C4", "C12", "C13", "C14", "C15", "C16")}
-    robust = write_readings(folder, sweeps, few).set_index("claim")
-    judged = pd.read_parquet(folder / READINGS)
-    assert robust.loc[["C12", "C13"], "readings"].tolist() == [9, 9]
-    assert robust.at["C1", "readings"] == 1 + 5 + 6
-    assert "C16" not in robust.index
-    assert set(judged.loc[judged["sweep"] == "networks", "claim"]) == {
-        "C4",
-        "C12",
-        "C13",
-        "C14",
-        "C15",
-    }
-    verdicts = ["reproduced", "partly", "inconclusive", "not reproduced"]
-    assert (robust[verdicts].sum(axis=1) == robust["readings"]).all()
-    assert judged.groupby("claim")["is_default"].sum().eq(1).all()
-    assert len(pd.read_parquet(folder / SELECTION)) == 9
-    assert set(pd.read_parquet(folder / DECISIVE).columns) >= {
-        "claim",
-        "readings",
-        "effect",
-        "under",
-    }
-    assert len(pd.read_parquet(folder / ROBUST)) == len(robust)
-    for path in draw_readings(folder, sweeps):
-        assert path.stat().st_size > 5_000
-        assert path.with_suffix(".png").exists()
-
-
-def test_missing_groups_are_named(swept, tmp_path):
-    _, sweeps = swept
-    write_study(canonical(STUDY), tmp_path)
-    with pytest.raises(BadInput, match="`make readings` makes them"):
-        write_readings(tmp_path, sweeps, load_claims(Path("config/claims.yaml")))
-    with pytest.raises(BadInput, match="no such group; did you mean 'as-the-study'"):
-        write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi")

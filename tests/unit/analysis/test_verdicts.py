@@ -1,16 +1,14 @@
 """Verdicts on made-up runs whose truth is known, for each kind of comparison."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from tests.made_up import FROM, NOISE, ONE, OTHER, THIRD, UP_TO, ZERO, N, made_up, part, share_of
 from upswing.analysis.verdicts import judge, write_verdicts
-from upswing.runs.files.tables import write_table
-from upswing.runs.results import Results
 from upswing.study.claim_parts import weakest
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
-from upswing.study.paths import RUNS
 
 # kind, settings, and for each verdict the measures of the three cells that lead to it
 CASES = {
@@ -57,6 +55,15 @@ CASES = {
             "partly": [0.35 + NOISE / 10, 1 + NOISE],
             "inconclusive": [0.5 + NOISE, 1 - NOISE],
             "not reproduced": [0.9 + NOISE, 1 + NOISE],
+        },
+    ),
+    "ratio_of_sums": (  # of 1,000 steps
+        part("ratio_of_sums", [ONE], measure="swing_ups", per="steps", **FROM),
+        {
+            "reproduced": [950 + 1_000 * NOISE],
+            "partly": [650 + 1_000 * NOISE],
+            "inconclusive": [500 + 1_000 * NOISE],
+            "not reproduced": [200 + 1_000 * NOISE],
         },
     ),
     "difference_of_means": (
@@ -136,16 +143,16 @@ def test_each_verdict_of_identical_runs(tmp_path, verdict):
     assert judge(results, "C0", claim)[0].verdict == verdict
 
 
-def test_runs_are_paired_by_seed_in_whatever_order_they_stand(tmp_path):
-    results = made_up(tmp_path, swing_ups=[np.arange(N) + 0.5, np.arange(N), ZERO])
-    asked = part("probability_greater", [ONE, OTHER], measure="swing_ups", **FROM)
-    claim = Claim(statement="…", section="…", figure=5, cell=ONE, parts=[asked])
-    (before,) = judge(results, "C0", claim)
-    shuffled = results.runs.sample(frac=1, random_state=1).drop(columns="cell")
-    write_table(tmp_path / RUNS, shuffled)
-    (after,) = judge(Results(tmp_path), "C0", claim)
-    assert before[:9] == after[:9]
-    assert before.estimate == 1
+@pytest.mark.parametrize("verdict", DIGESTS)
+def test_each_verdict_of_what_tiles_can_represent(tmp_path, verdict):
+    """Of the starts, whichever cells the study has."""
+    results = made_up(tmp_path)
+    success = share_of(DIGESTS[verdict]) > 0
+    results.__dict__["tile_policy"] = pd.DataFrame({"angle": 0.0, "success": success})
+    claim = Claim(statement="…", section="…", parts=[part("share_represented", [], **FROM)])
+    (row,) = judge(results, "C0", claim)
+    assert (row.verdict, row.estimate, row.n) == (verdict, success.mean(), N)
+    assert row.diverged == 0
 
 
 def test_a_claim_is_as_good_as_its_weakest_part():
@@ -179,35 +186,6 @@ def test_a_cell_that_the_study_has_not_is_named(tmp_path):
     (row,) = judge(results, "C0", claim)
     assert row.verdict == "not in this study"
     assert "balancing/table/alpha-0.7" in row.says
-
-
-def about_the_other():
-    asked = part("share", [OTHER], where={"swing_ups": {"at_least": 1}}, **FROM)
-    return {"C0": Claim(statement="…", section="…", cell=OTHER, parts=[asked])}
-
-
-def test_runs_that_are_missing_fail_loudly_with_the_cells_name(tmp_path):
-    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
-    runs = results.runs.drop(columns="cell")
-    write_table(tmp_path / RUNS, runs[~runs["run"].str.startswith(OTHER)])
-    with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} runs are missing"):
-        write_verdicts(Results(tmp_path), about_the_other(), {})
-
-
-def test_recordings_that_are_gone_fail_loudly_with_the_cells_name(tmp_path):
-    results = made_up(tmp_path, swing_ups=[ZERO, ZERO, ZERO])
-    for path in (tmp_path / "runs" / OTHER).iterdir():
-        path.unlink()
-    with pytest.raises(BadInput, match=rf"{OTHER}: {N} of {N} recordings are missing"):
-        write_verdicts(results, about_the_other(), {})
-
-
-def test_runs_without_a_value_are_not_paired_in_silence(tmp_path):
-    results = made_up(tmp_path, swing_ups=[np.where(share_of(0.5) > 0, 1.0, np.nan), ZERO, ZERO])
-    asked = part("probability_greater", [ONE, OTHER], measure="swing_ups", **FROM)
-    claim = Claim(statement="…", section="…", figure=5, cell=None, parts=[asked])
-    with pytest.raises(BadInput, match="swing_ups: some runs have none"):
-        judge(results, "C0", claim)
 
 
 def test_partly_says_whether_it_may_be_more(tmp_path):

@@ -2,6 +2,7 @@
 
 import inspect
 
+import pandas as pd
 import pytest
 
 from tests.helpers import make_spec
@@ -16,11 +17,14 @@ OPTION_ONLY = {"train", "study", "shortest", "browse"}
 """What took the folder only as an option before, because its arguments are others."""
 
 READERS = [
-    ["verdicts"], ["figure", "5"], ["doctor"], ["clean-orphans"], ["readme"], ["screenshots"],
+    ["verdicts"], ["figure", "5"], ["doctor"], ["clean-orphans"], ["readme"], ["exploratory"], ["screenshots"],
     ["tables"], ["comparison", "task-balancing"], ["comparisons"], ["viewer"], ["report"], ["changes"], ["readings"],
-    ["sweep", "networks", "group"],
+    ["sweep", "networks", "group"], ["finalists", "networks", "2"],
 ]  # fmt: skip
-"""What takes it in both ways, with the arguments that come first; ``bound`` needs nothing in it."""
+"""What takes it in both ways, with the arguments that come first."""
+
+MAKERS = ["bound", "tiles"]
+"""What takes it in both ways, too, and needs nothing in it."""
 
 
 def annotations():
@@ -40,7 +44,7 @@ def test_every_subcommand_with_results_has_the_option():
 
 def test_the_folder_is_an_argument_where_it_was_one():
     asked = {name for name, own in annotations().items() if Positional in own}
-    assert asked == {words[0] for words in READERS} | {"bound"}
+    assert asked == {*(words[0] for words in READERS), *MAKERS}
     assert asked == annotations().keys() - WITHOUT - OPTION_ONLY - {"compare"}
 
 
@@ -59,7 +63,7 @@ def test_both_ways_name_the_same_folder(words, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "words", [*READERS, ["bound"], ["compare", "a"]], ids=lambda words: words[0]
+    "words", [*READERS, *([name] for name in MAKERS), ["compare", "a"]], ids=lambda words: words[0]
 )
 def test_two_folders_are_a_mistake_in_one_line(words, tmp_path, capsys):
     one, other = tmp_path / "one", tmp_path / "other"
@@ -70,11 +74,20 @@ def test_two_folders_are_a_mistake_in_one_line(words, tmp_path, capsys):
     assert not list(tmp_path.iterdir())
 
 
-def test_the_bound_is_written_where_it_was_asked_for(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "writes"),
+    [("bound", "bound.write_bound"), ("tiles", "represented.write_represented")],
+)
+def test_what_needs_nothing_is_written_where_it_was_asked_for(tmp_path, monkeypatch, name, writes):
     written = []
-    monkeypatch.setattr("upswing.optimal.bound.write_bound", written.append)
-    assert main(["bound", str(tmp_path)]) == 0
-    assert main(["bound", "--results", str(tmp_path)]) == 0
+
+    def write(folder):
+        written.append(folder)
+        return pd.DataFrame({"success": [True, False]})
+
+    monkeypatch.setattr(f"upswing.optimal.{writes}", write)
+    assert main([name, str(tmp_path)]) == 0
+    assert main([name, "--results", str(tmp_path)]) == 0
     assert written == [tmp_path] * 2
 
 

@@ -67,11 +67,12 @@ def test_the_default_is_selected_where_a_sweep_is_for_that(tmp_path):
     study = of(tmp_path).study
     judging, both = (
         Targets(study, {}, dict.fromkeys(names, sweep))
-        for names in (["tables"], ["selection", "tables"])
+        for names in (["tables"], ["networks", "tables"])
     )
     pictures = {f"figures/readings-tables.{kind}" for kind in ("svg", "png")}
+    others = {f"figures/readings-networks.{kind}" for kind in ("svg", "png")}
     assert below(tmp_path, judging.readings) == {*SWEPT[1:], *pictures}
-    assert below(tmp_path, both.readings) == {*SWEPT, *pictures}
+    assert below(tmp_path, both.readings) == {*SWEPT, *pictures, *others}
 
 
 def test_the_page_shows_the_chapter_of_the_folder_below_once_it_is_there(tmp_path):

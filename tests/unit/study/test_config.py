@@ -21,6 +21,15 @@ from upswing.study.spec import parse
 from upswing.study.yaml_file import read_yaml
 
 STUDY = yaml.safe_load((ROOT / "config/config.yaml").read_text("utf-8"))
+TABLES, CONTROLS = (
+    next(
+        number
+        for number, one in enumerate(STUDY["experiments"])
+        if (task, architecture) == (one["tasks"][-1], one["architectures"][0])
+    )
+    for task, architecture in (("full-control", "table"), ("full-control", "idle"))
+)
+"""The experiments of a table on full control, and of controls."""
 
 
 def problems_of(change):
@@ -49,22 +58,29 @@ BAD = {
     "negative count": (put("seeds", -3), "seeds: -3: write how many"),
     "seed twice": (put("seeds", [1, 1]), "seeds: [1, 1]: 1 stands there twice"),
     "no seeds": (put("seeds", 0), "seeds: 0: write how many"),
+    "seeds without a count": (put("seeds", {"first": 10}), "seeds: {\"first\": 10}: write {first: 10000, count: 30}"),
+    "seeds with another key": (put("seeds", {"first": 1, "count": 2, "last": 2}), "write {first: 10000, count: 30}"),
+    "first seed as truth": (put("seeds", {"first": True, "count": 2}), "write {first: 10000, count: 30}"),
+    "first seed negative": (put("seeds", {"first": -1, "count": 2}), "seeds lie between 0 and 4294967295"),
+    "no seeds from one on": (put("seeds", {"first": 1, "count": 0}), "seeds lie between 0 and 4294967295"),
+    "seeds beyond the largest": (put("seeds", {"first": 4294967295, "count": 2}), "seeds lie between 0 and 4294967295"),
+    "too many seeds": (put("experiments", 0, "seeds", {"first": 0, "count": 10_001}), "experiments[0].seeds: "),
     "alpha 0": (put("experiments", 0, "alphas", [0]), "experiments[0].alphas[0]: 0: "),
     "alpha above 1": (put("experiments", 0, "alphas", [1, 1.5]), "experiments[0].alphas[1]: 1.5: "),
     "alpha as text": (put("experiments", 0, "alphas", ["1e-3"]), 'alphas[0]: "1e-3": this is text, not a number; write 0.001'),
     "alpha not a number": (put("experiments", 0, "alphas", [float("nan")]), "experiments[0].alphas[0]"),
-    "alpha of a control": (put("experiments", 4, "alphas", [1]), "idle does not learn and has no α"),
+    "alpha of a control": (put("experiments", CONTROLS, "alphas", [1]), "idle does not learn and has no α"),
     "no alpha": (put("experiments", 0, "alphas", []), "experiments[0].alphas: missing: table learns"),
     "unknown task": (put("experiments", 0, "tasks", ["balancin"]), "did you mean 'balancing'?"),
     "unknown architecture": (put("experiments", 0, "architectures", ["tabel"]), "did you mean 'table'?"),
     "unknown kind": (put("tasks", "balancing", "kind", "balance"), "must be 'balancing' or 'full-control'"),
     "unknown reading": (put("readings", "zero_of_angel", "upright"), "did you mean 'zero_of_angle'?"),
     "unknown option": (put("readings", "ties", "randon"), "readings.ties: \"randon\": must be 'random' or 'first'; did you mean 'random'?"),
-    "unknown rate": (put("readings", "learning_rate", 0.2), "readings.learning_rate: 0.2: must be one of 0.03, 0.1, 0.3, 0.5, 1"),
+    "unknown rate": (put("readings", "learning_rate", 0.25), "readings.learning_rate: 0.25: must be one of 0.03, 0.05, 0.07, 0.1, 0.11, 0.12, 0.13, 0.15, 0.2, 0.3, 0.5, 1"),
     "network of size 0": (put("architectures", "networks-5", "hidden", [0]), "architectures.networks-5.hidden[0]: 0: "),
     "three layers": (put("architectures", "networks-5", "hidden", [1, 2, 3]), "architectures.networks-5.hidden"),
     "network without size": (put("architectures", "networks-5", "hidden", []), "architectures.networks-5.hidden: []: must have at least 1"),
-    "duplicate cell": (put("experiments", 1, "tasks", ["balancing"]), "balancing/table/alpha-1\": duplicate cell: experiments[0]"),
+    "duplicate cell": (put("experiments", TABLES, "tasks", ["balancing"]), "balancing/table/alpha-1\": duplicate cell: experiments[0]"),
     "steps 0": (put("tasks", "balancing", "steps", 0), "tasks.balancing.steps: 0: "),
     "steps as truth": (put("tasks", "balancing", "steps", True), "tasks.balancing.steps: true: "),
     "discount 1": (put("discount", 1), "discount: 1: "),
@@ -123,9 +139,22 @@ def test_our_own_configurations_are_good(name):
 
 def test_the_matrix_of_the_thesis():
     matrix = Matrix(load(ROOT / "config/config.yaml"))
-    assert len(matrix.cells) == 34
-    assert len(set(matrix.runs)) == len(list(matrix.runs)) == 34 * 30
+    assert len(matrix.cells) == 36
+    runs = list(matrix.runs)
+    assert len(set(runs)) == len(runs) == sum(len(spec.seeds) for spec in matrix.cells.values())
     assert matrix.cells["full-control-long/table/alpha-0.001"].task.steps == 5_000_000
+
+
+def test_an_experiment_has_its_own_seeds_or_the_studys():
+    content = deepcopy(STUDY) | {"seeds": 3}
+    for experiment in content["experiments"]:
+        experiment.pop("seeds", None)
+    content["experiments"][TABLES]["seeds"] = {"first": 7, "count": 2}
+    content["experiments"][CONTROLS]["seeds"] = [9, 5]
+    cells = Matrix(validated({"x": content})).cells
+    own = {"full-control/table/alpha-0.1": (7, 8), "balancing/idle/alpha-none": (5, 9)}
+    for cell in (*own, "balancing/table/alpha-1", "full-control/modular-table/alpha-1"):
+        assert cells[cell].seeds == own.get(cell, (0, 1, 2))
 
 
 def test_smoke_has_the_cells_of_the_thesis():
@@ -133,12 +162,45 @@ def test_smoke_has_the_cells_of_the_thesis():
     assert list(thesis.cells) == list(smoke.cells)
 
 
-def test_more_seeds_only_add_blocks():
-    def blocks(seeds):
-        return Matrix(validated({"x": {**STUDY, "seeds": seeds}})).blocks
+ONE_CELL = {
+    "tasks": {"balancing": {"kind": "balancing", "steps": 5}},
+    "architectures": {"table": {"learner": "table"}},
+    "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [1]}],
+}
 
+
+def blocks(seeds, size=30):
+    study = validated({"x": {**ONE_CELL, "seeds": seeds, "seeds_per_job": size}})
+    return list(Matrix(study).blocks)
+
+
+def test_more_seeds_only_add_blocks():
     assert blocks(100)[:2] == blocks(60)
     assert [block.seeds for block in blocks([1000, 1020])] == [(1000,), (1020,)]
+    names = [block.name for block in blocks([0, 1, 2, 31, 35])]
+    assert names == ["seeds_0_to_2", "seeds_31_to_35_of_which_2"]
+
+
+@given(st.integers(0, 500), st.integers(1, 200), st.integers(1, 60))
+def test_blocks_have_every_seed_once_between_fixed_borders(first, count, size):
+    found = blocks({"first": first, "count": count}, size)
+    assert [seed for block in found for seed in block.seeds] == list(range(first, first + count))
+    for block in found:
+        assert {seed // size for seed in block.seeds} == {block.number}
+
+
+def test_cells_share_the_blocks_of_the_seeds_that_they_share():
+    content = deepcopy(ONE_CELL) | {"seeds": 60, "seeds_per_job": 30}
+    content["experiments"].append({**content["experiments"][0], "alphas": [0.1], "seeds": 40})
+    matrix = Matrix(validated({"x": content}))
+    one, other = matrix.cells
+    cells = {block.name: own for block, own in matrix.blocks.items()}
+    assert cells == {
+        "seeds_0_to_29": [one, other], "seeds_30_to_39": [other], "seeds_30_to_59": [one],
+    }  # fmt: skip
+    for cell, spec in matrix.cells.items():
+        jobs = [matrix.job(cell, block) for block in matrix.blocks_of(spec)]
+        assert [seed for job in jobs for seed in job.seeds] == list(spec.seeds)
 
 
 def test_command_line_values_are_laid_over_the_file():

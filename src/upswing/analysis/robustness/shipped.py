@@ -9,7 +9,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
@@ -23,6 +23,8 @@ from upswing.study.paths import ROBUST
 
 SHIPPED = "readings.json"
 """Its name, among the templates of the page."""
+
+NUMBERS = ("held_share", "weighted_share", "weighted_low", "weighted_high")
 
 Row = dict[str, Any]
 
@@ -54,19 +56,51 @@ def over_readings(
     """
     if (results / ROBUST).exists():
         return _own(results), "own"
+    found = read_shipped(templates)
+    taken = {
+        claim: row
+        for claim, row in found.claims.items()
+        if claim in claims and row["judged"] == checksum_of(claims[claim])
+    }
+    return taken, "shipped" if found.claims else ""
+
+
+class Shipped(NamedTuple):
+    """What the project brings along."""
+
+    made_from: dict[str, str]
+    claims: dict[str, Row]
+
+
+def read_shipped(templates: Path) -> Shipped:
+    """What ``make readme`` kept; nothing where it kept nothing.
+
+    Raises:
+        BadInput: the file is not what it writes.
+    """
     path = templates / SHIPPED
     if not path.exists():
-        return {}, ""
+        return Shipped({}, {})
     try:
-        rows = json.loads(path.read_text("utf-8"))["claims"]
-        found = {
-            claim: row
-            for claim, row in rows.items()
-            if claim in claims and row["judged"] == checksum_of(claims[claim])
+        content = json.loads(path.read_text("utf-8"))
+        rows = {
+            str(claim): {
+                **row,
+                "judged": str(row["judged"]),
+                "grade": str(row["grade"]),
+                **{name: _number(row[name]) for name in NUMBERS},
+            }
+            for claim, row in content["claims"].items()
         }
+        return Shipped({str(k): str(v) for k, v in content["made_from"].items()}, rows)
     except (ValueError, KeyError, TypeError, AttributeError):
         raise BadInput([f"{path}: is not what `make readme` writes; it makes it anew"]) from None
-    return found, "shipped"
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError(value)
+    return float(value)
 
 
 def checksum_of(claim: Claim) -> str:

@@ -3,7 +3,7 @@
     P(C) = Σ_r w(r) · P(C | runs under r),      w(r) ∝ prior(r) · Π likelihood of a report under r
 
 The author used one reading and did not say which. What he reports of other figures says how likely each
-is (``selection``); a report about a cell that the claim itself is about is left out, or the claim would
+is; a report about a cell that the claim itself is about is left out, or the claim would
 testify for itself. P(C | runs under r) is ``posterior.probability``.
 
 Assumptions: the readings that are swept are the ones that could have been meant; a report counts as one
@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import optimize, stats
 
-from upswing.analysis.robustness.selection import DRAWS, Counts, draws, estimate
+from upswing.analysis.robustness.selection import DRAWS, SEED, Counts
 from upswing.study.claims import Claim, cells_of_claims
 from upswing.study.sweeps import Overrides, Report, Sweep
 
@@ -62,8 +63,8 @@ def weigh(
     """
     own = {cell for _, cell in cells_of_claims({"": claim})}
     asked = {name: report for name, report in sweep.reports.items() if report.cell not in own}
-    likely = likelihoods(asked, counted)
     drawn = likelihoods_drawn(asked, counted)
+    likely = likelihoods(asked, counted)
     others = {
         name: _share(probabilities, prior(readings) * likely)
         for name, prior in priors(sweep).items()
@@ -77,22 +78,64 @@ def weigh(
 
 
 def likelihoods(reports: Mapping[str, Report], counted: list[Mapping[str, Counts]]) -> Real:
-    """How likely the reports are under each reading, shape (readings,)."""
-    return np.array(
-        [
-            np.prod([estimate(report, of[name]) for name, report in reports.items()])
-            for of in counted
-        ]
-    )
+    """How likely the reports are under each reading, as expected, shape (readings,)."""
+    each = [_expected(report, [of[name] for of in counted]) for name, report in reports.items()]
+    return np.asarray(np.prod(each, axis=0)) if each else np.ones(len(counted))
 
 
 def likelihoods_drawn(reports: Mapping[str, Report], counted: list[Mapping[str, Counts]]) -> Real:
-    """The same from the posterior of each, shape (readings, DRAWS)."""
+    """The same drawn from the posterior of each reading, shape (readings, DRAWS)."""
     each = [
-        draws(report, [of[name] for of in counted], number)
+        _drawn(report, [of[name] for of in counted], number)
         for number, (name, report) in enumerate(reports.items())
     ]
     return np.asarray(np.prod(each, axis=0)) if each else np.ones((len(counted), DRAWS))
+
+
+def _expected(report: Report, of: list[Counts]) -> Real:
+    a, b, lost, diverged = _posterior(of)
+    finite = np.where(diverged == 0, 1.0, (lost + 1) / (lost + diverged + 2))
+    found = {
+        "success": a / (a + b),
+        "failure": b / (a + b) * finite,
+        "both": a * b / ((a + b) * (a + b + 1)) * finite,  # E p − E p²
+    }
+    return np.asarray(found[report.shows])
+
+
+def _drawn(report: Report, of: list[Counts], number: int) -> Real:
+    a, b, lost, diverged = (column[:, None] for column in _posterior(of))
+    random = np.random.default_rng([SEED, number])
+    success = random.beta(a, b, (len(of), DRAWS))
+    finite = random.beta(lost + 1, diverged + 1, (len(of), DRAWS))
+    failure = (1 - success) * np.where(diverged == 0, 1.0, finite)
+    found = {"success": success, "failure": failure, "both": success * failure}[report.shows]
+    return np.asarray(found)
+
+
+def _posterior(of: list[Counts]) -> tuple[Real, Real, Real, Real]:
+    """Of the share that succeeds the Beta distribution (a, b); failures; runs that diverged."""
+    won, lost, diverged = (np.array(column, dtype=float) for column in zip(*of, strict=True))
+    n = won + lost + diverged
+    a, b = prior_of_shares(won, n)
+    return won + a, n - won + b, lost, diverged
+
+
+def prior_of_shares(successes: Any, runs: Any) -> tuple[float, float]:
+    """The Beta distribution that the readings' own shares come from, by maximum likelihood.
+
+    Readings have from a handful to a thousand runs. A flat prior would tell of every reading with few
+    runs and no success that a share of 1/(n + 2) is to be expected, and there are many such; so the
+    prior of a share is learned from all readings together (empirical Bayes).
+    """
+
+    def surprise(logs: Real) -> float:
+        a, b = np.exp(np.clip(logs, -4, 6))
+        return -float(stats.betabinom.logpmf(successes, runs, a, b).sum())
+
+    found = optimize.minimize(surprise, np.zeros(2), method="Nelder-Mead")
+    a, b = np.exp(np.clip(found.x, -4, 6))
+    return float(a), float(b)
 
 
 def priors(sweep: Sweep) -> dict[str, Prior]:
