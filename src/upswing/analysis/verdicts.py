@@ -107,11 +107,11 @@ def judge_all(
 
 
 def _other_readings(verdict: str, over: Mapping[str, Any]) -> list[str]:
-    """Whether the readings make a verdict fragile, in words."""
+    """Whether the readings make a verdict fragile, in words; their weight is that it holds in full."""
     weight = over.get("weighted_share")
     if weight is None or np.isnan(weight) or verdict == "inconclusive":
         return []
-    otherwise = 1 - weight if verdict in ("reproduced", "partly") else weight
+    otherwise = 1 - weight if verdict == "reproduced" else weight
     if otherwise < ENOUGH:
         return []
     return [f"other readings, with {otherwise:.0%} of the weight, say otherwise"]

@@ -143,14 +143,14 @@ SAYS = "other readings, with {} of the weight, say otherwise"
     [
         (ALL, 0.97, ""), (ALL, 0.949, SAYS.format("5%")), (ALL, 0.3, SAYS.format("70%")), (ALL, np.nan, ""),
         (NONE, 0.03, ""), (NONE, 0.3, SAYS.format("30%")), (NONE, 1.0, SAYS.format("100%")),
-        ([share_of(0.3), ZERO, ZERO], 0.2, SAYS.format("80%")),
+        ([share_of(0.3), ZERO, ZERO], 0.2, SAYS.format("20%")),
         ([share_of(0.5), ZERO, ZERO], 0.5, ""),
     ],
 )  # fmt: skip
 def test_a_twentieth_of_the_readings_weight_makes_a_verdict_fragile(
     tmp_path, falls, weight, because
 ):
-    """What they say otherwise: against a claim that holds, at least partly; for one that does not."""
+    """What they say otherwise: against a claim that holds in full; for one that does partly, or not."""
     found = verdict(made_up(tmp_path, falls_last_fifth=falls), BALANCING, over(weight))
     assert found["fragile_because"] == because
     assert found["fragile"] == bool(because)
