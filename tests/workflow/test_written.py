@@ -93,7 +93,7 @@ def test_claims_are_checked_like_the_configuration(tmp_path, content, expected):
         load_claims(path, validated({"small": SMALL}))
 
 
-CELL = "balancing/table/alpha-1"
+CELL, NETWORKS = "balancing/table/alpha-1", "balancing/networks-5/alpha-1"
 SWEEP = {"vary": ["ties"], "how": "grid", "seeds": 1, "cells": [CELL]}
 
 
@@ -102,7 +102,30 @@ SWEEP = {"vary": ["ties"], "how": "grid", "seeds": 1, "cells": [CELL]}
     [
         ({}, "must have at least 1"),
         ({"a": {**SWEEP, "cells_of_singles": [CELL]}}, "stands in `cells` too"),
-        ({"selection": SWEEP}, "the rule of selection needs balancing/networks-5/alpha-1"),
+        (
+            {"a": {**SWEEP, "rounds": [{"readings": 1, "seeds": 2}]}},
+            "a.reports: missing: rounds need them to say which readings go on",
+        ),
+        (
+            {
+                "a": {
+                    **SWEEP,
+                    "reports": {"p7": {"figure": 7, "cell": NETWORKS, "shows": "success"}},
+                }
+            },
+            f'a.reports.p7: "{NETWORKS}": is run by no round; name it in `cells`',
+        ),
+        ({"a": {**SWEEP, "every": {NETWORKS: 2}}}, "a.every"),
+        (
+            {
+                "a": {
+                    **SWEEP,
+                    "reports": {"p5": {"figure": 5, "cell": CELL, "shows": "failure"}},
+                    "rounds": [{"readings": 1, "seeds": 1}],
+                }
+            },
+            "each round has more seeds than the one before",
+        ),
     ],
 )
 def test_sweeps_are_checked_like_the_configuration(tmp_path, content, expected):

@@ -63,6 +63,6 @@ CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
     ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
 )
-FINALISTS = Code(("upswing.analysis.robustness.selection",), ())
+FINALISTS = Code(("upswing.analysis.robustness.selection", "upswing.runs.study_file"), ())
 COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
 VIEWER = Code(("upswing.recordings.viewer",), ("rerun-sdk",))
