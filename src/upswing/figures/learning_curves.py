@@ -81,6 +81,6 @@ def draw(results: "Results") -> "Drawing":
             panels.label_ends(panel, ends)
     caption = (
         "Medians over the runs, with the band between the quartiles. Left: each architecture with the "
-        "step size of most successes (of equals the first). Right: all of them with α = 1."
+        "step size that succeeds most often (the first, if several do). Right: all of them with α = 1."
     )
     return panels.Drawing(figure, caption, [])

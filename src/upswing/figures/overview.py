@@ -40,7 +40,9 @@ def draw(results: "Results") -> "Drawing":
             values = runs["falls_last_fifth"] if by_falls else 100 * runs["upright_at_end"]
             # Seeds lie a little apart, in their order.
             apart = np.linspace(-0.28, 0.28, len(values))
-            left.scatter(values, row + apart, s=4, color=shade, alpha=0.6, linewidths=0)
+            left.scatter(
+                values, row + apart, s=4, color=shade, alpha=0.6, linewidths=0, rasterized=True
+            )
             found = share(results, cell)
             right.hlines(row, found.low, found.high, color=shade, linewidth=2.5, alpha=0.45)
             right.plot(found.value, row, "o", color=shade, markersize=4)

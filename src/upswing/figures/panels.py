@@ -16,6 +16,12 @@ from upswing.runs.results import Ensemble, OneRun, Real
 POINTS = 200
 """Approximate number of points of an ensemble's line."""
 
+MANY = 40
+"""So many lines are drawn in pixels: as lines they would be most of the page."""
+
+EVERY = 2
+"""Which of the first steps are drawn: every so-many-th, and those with a fall."""
+
 LINE = 0.14
 """Height of a label [inch]."""
 
@@ -39,6 +45,7 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
     """
     if steps is not None and steps <= WHOLE_AT_START:
         shown = run.trajectory[run.trajectory["step"] < steps]
+        shown = shown[(shown["step"] % EVERY == 0) | shown["reset"]]
         degrees = np.degrees(shown["angle"].to_numpy(float))
         degrees[1:][shown["reset"].to_numpy()[:-1]] = np.nan  # no line across a reset
         axes.plot(shown["step"], degrees, color=colour(cell), linewidth=0.6)
@@ -46,8 +53,11 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
     else:
         first = run.windows["first_step"].to_numpy(float)
         last = int(first[-1] + run.windows["steps"].iloc[-1])
-        middles = np.repeat(first + run.windows["steps"].to_numpy(float) / 2, 2)
-        extremes = np.degrees(run.windows[["lowest_angle", "highest_angle"]].to_numpy(float))
+        begins = np.arange(0, len(first), 2)
+        lowest = np.minimum.reduceat(run.windows["lowest_angle"].to_numpy(float), begins)
+        highest = np.maximum.reduceat(run.windows["highest_angle"].to_numpy(float), begins)
+        middles = np.repeat(first[begins] + run.windows["steps"].iloc[0], 2)
+        extremes = np.degrees(np.stack([lowest, highest], axis=1))
         axes.plot(middles, extremes.ravel(), color=colour(cell), linewidth=0.6)
     limit = run.task.angle_limit
     axes.set(ylim=(-1.08 * limit, 1.08 * limit), yticks=np.linspace(-limit, limit, 5))
@@ -123,7 +133,9 @@ def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: i
         every = max(1, within // POINTS)
         x, y = last_step[:within:every], values[:, :within:every]
         if number == 0:
-            axes.plot(x, y.T, color=colour(cell), linewidth=0.4, alpha=0.35)
+            axes.plot(
+                x, y.T, color=colour(cell), linewidth=0.4, alpha=0.35, rasterized=len(y) > MANY
+            )
             mark_divergence(axes, x, y)
         finite = ~np.isnan(y).any(axis=1)
         median = np.median(y[finite], axis=0) if finite.any() else np.full(len(x), np.nan)

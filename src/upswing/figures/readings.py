@@ -69,7 +69,7 @@ def draw_sweep(judged: pd.DataFrame, sweep: Sweep) -> Figure:
     )
     above.pcolormesh(
         picture, cmap=ListedColormap(list(SHADES.values())), vmin=0, vmax=len(SHADES) - 1,
-        edgecolors="white", linewidth=0.3,
+        edgecolors="white", linewidth=0.3, rasterized=True,
     )  # fmt: skip
     above.set_yticks(np.arange(len(claims)) + 0.5, claims)
     above.invert_yaxis()

@@ -66,7 +66,10 @@ def stacks_and_panels(rows: int, of: int) -> tuple[Figure, list[tuple[list[Axes]
 
 def save(figure: Figure, place: Path) -> None:
     """Write a figure as ``place``.svg and ``place``.png."""
-    for ending, options in (("svg", {"metadata": {"Date": None}}), ("png", {"dpi": 200})):
+    # Lines are the more simplified, the coarser the picture; what is drawn in pixels must be fine.
+    in_pixels = bool(figure.findobj(lambda artist: bool(artist.get_rasterized())))
+    svg = {"metadata": {"Date": None}, **({"dpi": 200} if in_pixels else {})}
+    for ending, options in (("svg", svg), ("png", {"dpi": 200})):
         with written(place.with_suffix(f".{ending}")) as beside:
             figure.savefig(beside, format=ending, **options)
     plt.close(figure)

@@ -30,7 +30,7 @@ def continuous():
 
 def assert_learns_like(learner, oracle, forward, place_of, seed=3):
     """Values and 60 updates of a stepped network are those of torch and its gradients."""
-    optimiser = torch.optim.SGD(oracle.parameters(), lr=0.3)
+    optimiser = torch.optim.SGD(oracle.parameters(), lr=Readings().learning_rate)
     rng = np.random.default_rng(seed)
     for _ in range(60):
         place = place_of(rng)
