@@ -13,10 +13,11 @@ Row = dict[str, Any]
 
 
 def registered(results: Path, study: Study) -> Row | None:
-    """The last entry, and what of these results is not as it says; None where nothing is registered."""
+    """All entries, and what of these results is not as the last says; None where there are none."""
     if not REGISTRATION.exists():
         return None
-    entry = load_registration(REGISTRATION)[-1]
+    entries = load_registration(REGISTRATION)
+    entry = entries[-1]
     now = {
         "seeds": seeds_of(study),
         "readings": checksum_of(study.readings.model_dump_json()),
@@ -27,4 +28,5 @@ def registered(results: Path, study: Study) -> Row | None:
     except (BadInput, KeyError):
         now["claims"] = ""
     changed = [name for name, value in now.items() if getattr(entry.registered, name) != value]
-    return {"date": entry.date, "unseen": entry.unseen, "why": entry.why, "changed": changed}
+    told = [{"date": one.date, "unseen": one.unseen, "why": one.why} for one in entries]
+    return {"date": entry.date, "changed": changed, "entries": told}
