@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from upswing.analysis.robustness.tables import SHIPPED
 from upswing.figures import FIGURES, NAMES, drawable
 from upswing.recordings.comparison_names import comparison_names
 from upswing.study.claims import Claim, cells_of_claims
@@ -45,9 +46,6 @@ from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
-
-READINGS_SHIPPED = "readings.json"
-"""Among the templates: how the claims do over readings, for a study that has not swept them."""
 
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
@@ -285,7 +283,7 @@ class Targets:
         (own,) = self._below(ROBUST)
         if (coming and own in self.readings) or Path(own).exists():
             return [own]
-        shipped = Path("report", READINGS_SHIPPED)
+        shipped = Path("report", SHIPPED)
         return [str(shipped)] if shipped.exists() else []
 
     def content_of_sweep(self, job: str) -> str:

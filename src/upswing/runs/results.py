@@ -211,6 +211,9 @@ class OwnRuns(Results):
             raise BadInput([f"{self.folder}: {cell}: no cell of this study"])
         if cell not in self._read_cells:
             rows = collected(self.folder, [self.cells[cell]])
+            if "diverged_at" not in rows:
+                older = "its runs are of an older version; run the study again to make them"
+                raise BadInput([f"{self.folder}: {cell}: {older}"])
             self._read_cells[cell] = rows.assign(cell=cell)
         return self._read_cells[cell]
 

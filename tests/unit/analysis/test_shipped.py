@@ -1,17 +1,28 @@
 """What the project brings along of its readings, for a study that has not swept them."""
 
 import json
+from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from tests.made_up import FROM, ONE, ZERO, made_up, part, share_of
-from upswing.analysis.robustness.shipped import SHIPPED, checksum_of, over_readings, write_shipped
+from upswing.analysis.robustness.judging import sweep_of
+from upswing.analysis.robustness.shipped import (
+    checksum_of,
+    over_readings,
+    read_shipped,
+    write_shipped,
+)
+from upswing.analysis.robustness.tables import SHIPPED
 from upswing.analysis.verdicts import write_verdicts
 from upswing.runs.files.tables import write_table
-from upswing.study.claims import Claim
+from upswing.study.claims import Claim, load_claims
+from upswing.study.config import load
 from upswing.study.errors import BadInput
 from upswing.study.paths import ROBUST
+from upswing.study.registration import of
+from upswing.study.sweeps import load_sweeps
 
 BALANCES = {"swing_ups": {"at_least": 1}}
 
@@ -132,3 +143,17 @@ def test_verdicts_take_what_is_shipped(folders):
     assert verdicts["grade"].tolist() == ["depends on the reading", "holds"]
     assert verdicts["fragile"].tolist() == [True, False]
     assert "9% of the weight" in verdicts.at["C1", "fragile_because"]
+
+
+def test_what_the_project_brings_along_is_of_its_own_claims_and_sweeps():
+    """After a change of a claim, `make readings` and `make readme` are due."""
+    study = load(Path("config/config.yaml"))
+    claims = load_claims(Path("config/claims.yaml"), study)
+    sweeps = load_sweeps(Path("config/readings.yaml"), study)
+    found = read_shipped(Path("report"))
+    swept = {name for name, claim in claims.items() if sweep_of(claim, sweeps, study)}
+    assert found.claims.keys() == swept == claims.keys() - {"C16"}
+    for name, row in found.claims.items():
+        assert row["judged"] == checksum_of(claims[name]), name
+        assert 0 <= row["weighted_low"] <= row["weighted_share"] <= row["weighted_high"] <= 1
+    assert found.made_from["sweeps"] == of(study, claims, sweeps).sweeps

@@ -10,13 +10,15 @@ from upswing.analysis.verdicts import judge
 from upswing.physics.environment import NEVER, empty_trajectory
 from upswing.runs.metrics import measure
 from upswing.runs.outcome import outcome_of
-from upswing.runs.results import Results
+from upswing.runs.results import OwnRuns, Results
 from upswing.runs.rows import collected
 from upswing.runs.simulation import prepare
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.train import train
+from upswing.study import loading
 from upswing.study.claims import Claim
 from upswing.study.config import validated
+from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
 
 OVERFLOWING = {"learning_rate": 1, "initial_weights": 1, "reward_unit": "degrees", "biases": "both"}
@@ -145,3 +147,22 @@ def test_a_figure_shows_where_it_ended(results):
 def test_the_step_stands_in_the_table_of_runs(results):
     assert results.runs["diverged_at"].dtype == "Int64"
     assert pd.isna(results.cell(TABLE)["diverged_at"]).all()
+
+
+@pytest.mark.parametrize("name", ["overview", "learning-curves", "step-sizes"])
+def test_figures_are_drawn_where_every_run_diverged(results, name):
+    only = Results(results.folder)
+    networks = {NETWORKS: results.cells[NETWORKS]}
+    only.__dict__.update(study=results.study, cells=networks, runs=results.cell(NETWORKS))
+    drawing = loading.load("figures", name).draw(only)
+    assert drawing.figure.axes
+    assert drawing.caption
+
+
+def test_runs_of_an_older_version_are_named(results, monkeypatch):
+    monkeypatch.setattr(
+        "upswing.runs.results.collected",
+        lambda *_: results.cell(TABLE).drop(columns="diverged_at"),
+    )
+    with pytest.raises(BadInput, match="its runs are of an older version; run the study again"):
+        OwnRuns(results.folder).counted(TABLE)

@@ -124,11 +124,21 @@ def estimate(report: Report, of: Counts) -> float:
     return {"success": won, "failure": lost, "both": won * lost}[report.shows]
 
 
-def draws(report: Report, of: list[Counts], number: int) -> Real:
-    """That likelihood drawn from its posterior under a flat prior, shape (readings, DRAWS)."""
+def draws(
+    report: Report, of: list[Counts], number: int, prior: tuple[float, float] = (1.0, 1.0)
+) -> Real:
+    """That likelihood drawn from its posterior, shape (readings, DRAWS).
+
+    Args:
+        report: what the author reports.
+        of: the runs of each reading.
+        number: that of the report, so that each has draws of its own.
+        prior: the Beta distribution of the share that succeeds; flat without it.
+    """
     won, lost, diverged = (np.array(column)[:, None] for column in zip(*of, strict=True))
     random = np.random.default_rng([SEED, number])
-    success = random.beta(won + 1, lost + diverged + 1, (len(of), DRAWS))
+    a, b = prior
+    success = random.beta(won + a, lost + diverged + b, (len(of), DRAWS))
     finite = random.beta(lost + 1, diverged + 1, (len(of), DRAWS))
     failure = (1 - success) * np.where(diverged == 0, 1.0, finite)
     found = {"success": success, "failure": failure, "both": success * failure}[report.shows]

@@ -13,16 +13,13 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from upswing.analysis.robustness.tables import OF_A_SUMMARY, REMEDY
+from upswing.analysis.robustness.tables import OF_A_SUMMARY, REMEDY, SHIPPED
 from upswing.runs.files.atomic import written
 from upswing.runs.files.provenance import provenance
 from upswing.runs.files.typed_table import read_table
 from upswing.study.claims import Claim, canonical_claims
 from upswing.study.errors import BadInput
 from upswing.study.paths import ROBUST
-
-SHIPPED = "readings.json"
-"""Its name, among the templates of the page."""
 
 NUMBERS = ("held_share", "weighted_share", "weighted_low", "weighted_high")
 

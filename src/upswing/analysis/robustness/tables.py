@@ -26,4 +26,7 @@ OF_A_SUMMARY = {
     "weighted_low": "number", "weighted_high": "number", "grade": "text", "left_out": "text",
     "by_prior": "text",
 }  # fmt: skip
+SHIPPED = "readings.json"
+"""Among the templates of the page: how claims do over readings, for a study that has not swept them."""
+
 REMEDY = "`make readings` makes it"

@@ -3,8 +3,8 @@
     P(C) = Σ_r w(r) · P(C | runs under r),      w(r) ∝ prior(r) · Π likelihood of a report under r
 
 The author used one reading and did not say which. What he reports of other figures says how likely each
-is; a report about a cell that the claim itself is about is left out, or the claim would
-testify for itself. P(C | runs under r) is ``posterior.probability``.
+is; a report about a cell that the claim itself is about is left out, or the claim would testify for
+itself. P(C | runs under r) is ``posterior.probability``.
 
 Assumptions: the readings that are swept are the ones that could have been meant; a report counts as one
 run that the figure shows (of figure 11, one that succeeds and one that does not); the reports are
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize, stats
 
-from upswing.analysis.robustness.selection import DRAWS, SEED, Counts
+from upswing.analysis.robustness.selection import DRAWS, Counts, draws
 from upswing.study.claims import Claim, cells_of_claims
 from upswing.study.sweeps import Overrides, Report, Sweep
 
@@ -85,15 +85,18 @@ def likelihoods(reports: Mapping[str, Report], counted: list[Mapping[str, Counts
 
 def likelihoods_drawn(reports: Mapping[str, Report], counted: list[Mapping[str, Counts]]) -> Real:
     """The same drawn from the posterior of each reading, shape (readings, DRAWS)."""
+    columns = {name: [of[name] for of in counted] for name in reports}
     each = [
-        _drawn(report, [of[name] for of in counted], number)
+        draws(report, columns[name], number, _prior(columns[name]))
         for number, (name, report) in enumerate(reports.items())
     ]
     return np.asarray(np.prod(each, axis=0)) if each else np.ones((len(counted), DRAWS))
 
 
 def _expected(report: Report, of: list[Counts]) -> Real:
-    a, b, lost, diverged = _posterior(of)
+    won, lost, diverged = (np.array(column, dtype=float) for column in zip(*of, strict=True))
+    prior = _prior(of)
+    a, b = won + prior[0], lost + diverged + prior[1]
     finite = np.where(diverged == 0, 1.0, (lost + 1) / (lost + diverged + 2))
     found = {
         "success": a / (a + b),
@@ -103,22 +106,8 @@ def _expected(report: Report, of: list[Counts]) -> Real:
     return np.asarray(found[report.shows])
 
 
-def _drawn(report: Report, of: list[Counts], number: int) -> Real:
-    a, b, lost, diverged = (column[:, None] for column in _posterior(of))
-    random = np.random.default_rng([SEED, number])
-    success = random.beta(a, b, (len(of), DRAWS))
-    finite = random.beta(lost + 1, diverged + 1, (len(of), DRAWS))
-    failure = (1 - success) * np.where(diverged == 0, 1.0, finite)
-    found = {"success": success, "failure": failure, "both": success * failure}[report.shows]
-    return np.asarray(found)
-
-
-def _posterior(of: list[Counts]) -> tuple[Real, Real, Real, Real]:
-    """Of the share that succeeds the Beta distribution (a, b); failures; runs that diverged."""
-    won, lost, diverged = (np.array(column, dtype=float) for column in zip(*of, strict=True))
-    n = won + lost + diverged
-    a, b = prior_of_shares(won, n)
-    return won + a, n - won + b, lost, diverged
+def _prior(of: list[Counts]) -> tuple[float, float]:
+    return prior_of_shares([won for won, _, _ in of], [sum(one) for one in of])
 
 
 def prior_of_shares(successes: Any, runs: Any) -> tuple[float, float]:

@@ -1,6 +1,7 @@
 """What the rules of the workflow call, to make one file or several; by hand, to repeat a job."""
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -19,6 +20,10 @@ from upswing.cli.options import (
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
+
+if TYPE_CHECKING:
+    from upswing.study.config import Study
+    from upswing.study.sweeps import Sweep
 
 panel = Panel("Called by the workflow")
 
@@ -167,17 +172,11 @@ def sweep(
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Run cells of the study under a group of other readings and keep the measures."""
-    from upswing.runs.study_file import read_study
     from upswing.runs.sweep import write_group
-    from upswing.study.errors import BadInput, near
-    from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
-    asked = asked_study(study) or read_study(folder)
-    known = load_sweeps(sweeps, asked)
-    if name not in known:
-        raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
-    print(write_group(folder, asked, name, known[name], group))
+    asked, found = _sweep_named(name, folder, study, sweeps)
+    print(write_group(folder, asked, name, found, group))
 
 
 @panel.subcommand("finalists", cls=Job)
@@ -191,19 +190,26 @@ def finalists(
 ) -> None:
     """Say which readings of a sweep are likely enough to go on to a round with more seeds."""
     from upswing.analysis.robustness.selection import write_finalists
+    from upswing.study.errors import BadInput
+
+    folder = results_folder(results, positional)
+    asked, found = _sweep_named(name, folder, study, sweeps)
+    if number > (last := len(found.rounds) + 1):
+        raise BadInput([f"{sweeps}: {name}: round {number}: there is none; the last is {last}"])
+    print(write_finalists(folder, asked, name, found, number))
+
+
+def _sweep_named(name: str, results: Path, study: str, sweeps: Path) -> "tuple[Study, Sweep]":
+    """The study that is asked for, and a sweep of it; ``BadInput`` if there is none of this name."""
     from upswing.runs.study_file import read_study
     from upswing.study.errors import BadInput, near
     from upswing.study.sweeps import load_sweeps
 
-    folder = results_folder(results, positional)
-    asked = asked_study(study) or read_study(folder)
+    asked = asked_study(study) or read_study(results)
     known = load_sweeps(sweeps, asked)
     if name not in known:
         raise BadInput([f"{sweeps}: {name}: no such sweep; {near(name, known)}"])
-    if number > len(known[name].rounds) + 1:
-        last = len(known[name].rounds) + 1
-        raise BadInput([f"{sweeps}: {name}: round {number}: there is none; the last is {last}"])
-    print(write_finalists(folder, asked, name, known[name], number))
+    return asked, known[name]
 
 
 @panel.subcommand("readings", cls=Job)
