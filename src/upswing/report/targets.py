@@ -3,34 +3,27 @@
 Nothing here looks at the disk, but for the files that a page shows only where they are there.
 """
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable
 from functools import cached_property
 from pathlib import Path
 
-from upswing.analysis.robustness.tables import SHIPPED
 from upswing.figures import FIGURES, NAMES, drawable
 from upswing.recordings.comparison_names import comparison_names
-from upswing.study.claims import Claim, cells_of_claims
-from upswing.study.config import Study
+from upswing.report.targets_of_sweeps import ASKING_FOR_READINGS, SWEPT, TargetsOfSweeps
+from upswing.study.claims import cells_of_claims
 from upswing.study.ids import KNOWN_FILE, file_of
-from upswing.study.matrix import Matrix
 from upswing.study.paths import (
     BEYOND,
     BOUND,
     CELLS,
     CHANGES,
     CHOSEN,
-    DECISIVE,
     EVIDENCE,
     EVIDENCE_CSV,
     MAPS,
     PAGE,
-    READINGS,
-    ROBUST,
     RUNS,
     RUNS_CSV,
-    SELECTION,
     SHORTEST,
     STUDY,
     TILES,
@@ -38,22 +31,13 @@ from upswing.study.paths import (
     VIEWER_PAGE,
     comparison,
     figure,
-    figure_of_sweep,
     finalists_of_sweep,
-    group_of_sweep,
 )
-from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
 
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
-
-ASKING_FOR_READINGS = ("readings", "with_readings")
-"""The targets, rules of the workflow, by which the claims are judged under other readings."""
-
-SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
-"""The tables of the sweeps over readings, which the page shows once they have been run."""
 
 CHAPTER = (CHANGES, BOUND, CHOSEN, figure("bound", "svg"), figure("changes", "svg"))
 """What the page shows of the chapter beyond the thesis, once that has been run."""
@@ -68,18 +52,8 @@ def templates(folder: Path) -> list[str]:
     return sorted(str(path) for pattern in TEMPLATES for path in folder.glob(pattern))
 
 
-@dataclass(frozen=True)
-class Targets:
+class Targets(TargetsOfSweeps):
     """The files of a study, each as its path from the folder that the workflow runs in."""
-
-    study: Study
-    claims: Mapping[str, Claim]
-    sweeps: Mapping[str, Sweep]
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """The study's cells and runs."""
-        return Matrix(self.study)
 
     @cached_property
     def changes(self) -> bool:
@@ -101,15 +75,6 @@ class Targets:
         return list(dict.fromkeys((*NAMES, *self.study.figures)))
 
     @cached_property
-    def groups(self) -> dict[str, tuple[Sweep, Group]]:
-        """Every job of the sweeps by ``sweep/group``."""
-        return {
-            f"{name}/{group.name}": (sweep, group)
-            for name, sweep in self.sweeps.items()
-            for group in groups(sweep, self.study)
-        }
-
-    @cached_property
     def tables(self) -> list[str]:
         """The tables of every study."""
         return self._below(RUNS, CELLS, VERDICTS, EVIDENCE)
@@ -125,24 +90,6 @@ class Targets:
         """The tables of a study of changes; none of another."""
         search = (SHORTEST, CHOSEN) if self.study.search else ()
         return self._below(BOUND, MAPS, CHANGES, *search) if self.changes else []
-
-    @cached_property
-    def swept(self) -> list[str]:
-        """The table of every job of the sweeps."""
-        return self._below(
-            *(
-                group_of_sweep(name, group.name)
-                for name, sweep in self.sweeps.items()
-                for group in groups(sweep, self.study)
-            )
-        )
-
-    @cached_property
-    def readings(self) -> list[str]:
-        """What the sweeps come to: tables, and a figure of each sweep that judges claims."""
-        pictures = [figure_of_sweep(name, kind) for name in self.sweeps for kind in ("svg", "png")]
-        tables = [table for table in SWEPT if table != SELECTION or CHOOSING in self.sweeps]
-        return self._below(*tables, *pictures)
 
     @cached_property
     def page(self) -> list[str]:
@@ -253,20 +200,6 @@ class Targets:
             *(self.beyond or [path for path in self._chapter() if Path(path).exists()]),
         ]
 
-    def before_sweep(self, job: str) -> list[str]:
-        """What a job of the sweeps reads: which readings go on to its round, after the first."""
-        name, number = job.partition("/")[0], self.groups[job][1].round
-        return self._below(finalists_of_sweep(name, number)) if number > 1 else []
-
-    def before_round(self, name: str, number: int) -> list[str]:
-        """The tables of all jobs of a sweep before a round."""
-        jobs = groups(self.sweeps[name], self.study)
-        return self._below(*(group_of_sweep(name, one.name) for one in jobs if one.round < number))
-
-    def reports_of_sweep(self, name: str) -> str:
-        """What says which readings go on, as one line."""
-        return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
-
     @cached_property
     def tiles(self) -> list[str]:
         """What says whether a table can represent the task, where a claim of this study asks."""
@@ -277,25 +210,8 @@ class Targets:
         )
         return self._below(TILES) if asks else []
 
-    def weighed(self, asked: Collection[str]) -> list[str]:
-        """What says how the claims do over readings: the study's own sweeps, or what is shipped."""
-        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
-        (own,) = self._below(ROBUST)
-        if (coming and own in self.readings) or Path(own).exists():
-            return [own]
-        shipped = Path("report", SHIPPED)
-        return [str(shipped)] if shipped.exists() else []
-
-    def content_of_sweep(self, job: str) -> str:
-        """What the result of a job of the sweeps depends on besides the code, as a checksum."""
-        sweep, group = self.groups[job]
-        return content_of(sweep, self.study, group, self.matrix.cells)
-
     def _chapter(self) -> list[str]:
         """The chapter in the study's own folder, or in the folder for it below."""
         return self._below(
             *sorted(f"{base}{file}" for base in ("", f"{BEYOND}/") for file in CHAPTER)
         )
-
-    def _below(self, *files: str) -> list[str]:
-        return [f"{self.study.results}/{file}" for file in files]

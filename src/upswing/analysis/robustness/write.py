@@ -14,20 +14,30 @@ from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim
+from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION, TILES
 from upswing.study.sweeps import CHOOSING, Sweep
 
 
 def write_readings(
-    results: Path, sweeps: Mapping[str, Sweep], claims: Mapping[str, Claim]
+    results: Path,
+    sweeps: Mapping[str, Sweep],
+    claims: Mapping[str, Claim],
+    study: Study | None = None,
 ) -> pd.DataFrame:
     """Write the four tables of the sweeps below ``results``; returns that of the claims.
+
+    Args:
+        results: the folder of results.
+        sweeps: the sweeps that the study has the cells for.
+        claims: the claims that are judged.
+        study: whose readings are varied; without it, the one that the folder is of.
 
     Raises:
         BadInput: some of the sweeps' runs are missing.
     """
-    study = read_study(results)
+    study = study or read_study(results)
     if not sweeps:
         raise BadInput(
             [f"{results}: no sweep of the readings fits this study: it lacks their cells"]

@@ -216,6 +216,7 @@ def _sweep_named(name: str, results: Path, study: str, sweeps: Path) -> "tuple[S
 def readings(
     positional: Positional = None,
     results: Named = None,
+    study: AskedStudy = "",
     sweeps: Sweeps = SWEEPS,
     claims: Claims = CLAIMS,
 ) -> None:
@@ -228,7 +229,7 @@ def readings(
     from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
-    study = read_study(folder)
-    swept, judged = load_sweeps(sweeps, study), load_claims(claims, study)
-    print_robustness(write_readings(folder, swept, judged))
+    asked = asked_study(study) or read_study(folder)
+    swept, judged = load_sweeps(sweeps, asked), load_claims(claims, asked)
+    print_robustness(write_readings(folder, swept, judged, asked))
     draw_readings(folder, swept)
