@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from upswing.analysis import statistics, survival
-from upswing.analysis.contraction import PROBLEMS, contracts
 from upswing.analysis.statistics import Estimate
 from upswing.runs.results import Results
 from upswing.study.claim_parts import SHARES, Bound, Part
 from upswing.study.errors import BadInput, near
+
+CONTRACTION = "upswing.analysis.contraction"
+"""What C16 asks; ``study/jobs.py`` names it for the jobs that judge."""
 
 
 def compare(results: Results, part: Part, cells: tuple[str, ...]) -> Estimate:
@@ -52,7 +55,7 @@ def counts(results: Results, part: Part, cells: tuple[str, ...]) -> list[tuple[i
     """How many of how many fulfil what a part counts, for each of its cells, or once for all."""
     match part.kind:
         case "share_contracting":  # of made-up problems, and of no cell
-            return [(_contracting(), PROBLEMS)]
+            return [_contracting()]
         case "share_represented":  # of the starts, by a policy on the tiles that was found
             starts = results.tile_policy
             return [(int(starts["success"].sum()), len(starts))]
@@ -84,8 +87,11 @@ def samples(results: Results, part: Part, cells: tuple[str, ...]) -> list[NDArra
 
 
 @cache
-def _contracting() -> int:
-    return sum(map(contracts, range(PROBLEMS)))
+def _contracting() -> tuple[int, int]:
+    """Loaded by name, for it brings the table along: a figure need not be drawn anew with that."""
+    contraction: Any = import_module(CONTRACTION)
+    problems = contraction.PROBLEMS
+    return sum(map(contraction.contracts, range(problems))), problems
 
 
 def _among(runs: pd.DataFrame, conditions: Mapping[str, Bound]) -> pd.DataFrame:
@@ -117,7 +123,13 @@ def _known(runs: pd.DataFrame, measure: str) -> NDArray[Any]:
 
 def own_values(results: Results, part: Part, cells: tuple[str, ...]) -> NDArray[Any]:
     """The values whose spread is shown: of the first cell, the measure or what is counted."""
+    return by_seed(results, part, cells[0]).to_numpy() if cells else np.empty(0)
+
+
+def by_seed(results: Results, part: Part, cell: str) -> pd.Series:
+    """What a part measures or counts of the runs of a cell that it looks at, where it is known."""
     measure = part.measure or next(iter(part.where), None)
-    if not cells or measure is None:
-        return np.empty(0)
-    return _column(_among(results.counted(cells[0]), part.among), measure).dropna().to_numpy()
+    if measure is None:
+        return pd.Series(dtype="float64")
+    runs = _among(results.counted(cell), part.among)
+    return _column(runs, measure).set_axis(runs["seed"]).dropna()
