@@ -7,6 +7,8 @@ import sys
 import pytest
 
 MODULES = {
+    "the package itself, for its version": ("upswing", set(), 100),
+    "a notebook that opens a study": ("upswing.api", {"pandas", "numba"}, 1_400),
     "planning": (
         "upswing.report.targets, upswing.runs.records, upswing.study.check, upswing.study.jobs",
         set(),
@@ -18,7 +20,7 @@ MODULES = {
         {"pandas", "matplotlib"},
         1_300,
     ),
-    "verdicts": ("upswing.analysis.verdicts", {"pandas", "scipy.stats", "numba"}, 1_900),
+    "verdicts": ("upswing.analysis.verdicts", {"pandas", "numba"}, 1_900),
     "the page": ("upswing.report.page", {"pandas", "jinja2", "numba"}, 1_300),
 }
 """Of each job what it starts from, the costly packages that it needs, and a generous number of modules."""
