@@ -27,7 +27,7 @@ TRAIN = "train_seeds_0_to_1"
 # What follows from some cells: the figures that show them, the recordings of their tasks and claims.
 OF_NETWORKS = {**FOLLOWS, "figure": 4, "comparison": 4}
 OF_BALANCING = {**FOLLOWS, "figure": 5, "comparison": 6}
-OF_TABLES = FOLLOWS  # a theorem is checked with tables, so whatever judges a claim is made again
+OF_TABLES = {**FOLLOWS, "comparison": COMPARISONS - 1}  # one shows networks alone
 OF_A_CLAIM = {"verdicts": 1, "history": 1, "figure": 1, "comparison": 1, "viewer": 1, "report": 1}
 OF_A_NEW_CELL = {**FOLLOWS, "figure": 3, "comparison": 1}
 

@@ -6,9 +6,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
-
 Real = NDArray[np.float64]
 
 COLUMNS = 40
@@ -23,7 +20,10 @@ UPRIGHT, HANGING, NEAR_HELD = 20.0, 15.0, 15.0
 MOST, HALF = 0.75, 0.5
 """The share of a stretch's steps that makes it one phase; running away swings in first."""
 
-HELD = degrees(pi - atan2(max(ACCELERATIONS), Pendulum().gravity))
+GRAVITY, LENGTH, PUSH = 9.81, 0.2, 10.0
+"""g [m/s²], l [m] (§4.2.2) and the strongest ẍ [m/s²] (§4.4); ``physics`` brings a compiler along."""
+
+HELD = degrees(pi - atan2(PUSH, GRAVITY))
 """Where a cart that is pushed one way for ever holds the rod, from upright (eq. 13) [°]."""
 
 WORDS = {
@@ -89,8 +89,7 @@ def goes_over(angle: Real, angular_velocity: Real) -> NDArray[np.bool_]:
         angle: φ [°].
         angular_velocity: φ̇ [rad/s].
     """
-    body = Pendulum()
-    least = 3 * body.gravity / body.length * (1 - np.cos(np.radians(angle)))
+    least = 3 * GRAVITY / LENGTH * (1 - np.cos(np.radians(angle)))
     return np.asarray(angular_velocity**2 > least)
 
 

@@ -11,7 +11,7 @@ from urllib.parse import quote
 from upswing.recordings.catalog import has_display, tunnel
 from upswing.recordings.fence import fenced
 from upswing.recordings.ports import LOOPBACK, check_free, free_port, listens
-from upswing.recordings.processes import running
+from upswing.recordings.processes import Process, running
 from upswing.recordings.program import RERUN
 from upswing.study.errors import BadInput
 
@@ -27,7 +27,7 @@ class Looking(NamedTuple):
 
     url: str  # where a stream is sent
     says: str  # where it is seen, and how that ends
-    process: "subprocess.Popen[bytes]"
+    process: Process
 
     @property
     def looks(self) -> bool:
@@ -108,7 +108,7 @@ def _url(port: int) -> str:
     return f"rerun+http://{LOOPBACK}:{port}/proxy"
 
 
-def _started(process: "subprocess.Popen[bytes]", *ports: int) -> None:
+def _started(process: Process, *ports: int) -> None:
     """Wait until a viewer answers."""
     until = time.monotonic() + PATIENCE
     while not all(map(listens, ports)):

@@ -33,6 +33,10 @@ class AskedToEnd(SystemExit):
         super().__init__(128 + sign)
 
 
+Process = subprocess.Popen[bytes]
+"""A program that runs beside us."""
+
+
 @contextmanager
 def running(
     command: Sequence[str],

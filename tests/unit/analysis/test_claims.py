@@ -140,7 +140,7 @@ def test_for_every_part_of_every_claim_it_is_known_when_it_is_false():
 def test_a_claim_that_is_false_is_not_reproduced(tmp_path, monkeypatch, claim, part):
     if claim == "C16":
         half = PROBLEMS // 2
-        monkeypatch.setattr("upswing.analysis.comparisons._contracting", lambda: half)
+        monkeypatch.setattr("upswing.analysis.comparisons._contracting", lambda: (half, PROBLEMS))
     results, asked = world(tmp_path, TRUE, FALSE[claim, part]), {claim: CLAIMS[claim]}
     evidence = evidence_of(results, asked)
     assert verdicts_by(asked, evidence) == {claim: "not reproduced"}

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from upswing.figures.panels import ANGLES, TURN, angle_histogram
-from upswing.figures.phases import HELD, goes_over, phases
+from upswing.figures.phases import GRAVITY, HELD, LENGTH, PUSH, goes_over, phases
 from upswing.figures.style import plt
 from upswing.physics.pendulum import Pendulum, energy
-from upswing.physics.tasks import HORIZONTAL
+from upswing.physics.tasks import ACCELERATIONS, HORIZONTAL
 
 N = 4_000
 WHEN = np.arange(N) / N
@@ -77,3 +77,8 @@ def test_hanging_is_drawn_whole(study):
     words = [label.get_text() for label in axes.get_yticklabels()]
     assert {"upright", "hanging"} <= set(words)
     plt.close(figure)
+
+
+def test_the_constants_are_those_of_the_pendulum():
+    body = Pendulum()
+    assert (body.gravity, body.length, max(ACCELERATIONS)) == (GRAVITY, LENGTH, PUSH)

@@ -119,7 +119,7 @@ def test_the_recording_read_back(stored):
         "/phase/trail",
     }
     maps = {"/learned/policy", "/learned/value"}
-    assert set(rows) == lines | pictures | maps | {"/events", "/envelope/angle"}
+    assert set(rows) == lines | pictures | maps | {"/events", "/envelope/angle", "/stretch"}
     for together in (lines, pictures, maps):
         assert len({rows[entity] for entity in together}) == 1
     assert 30 <= rows["/learned/policy"] <= 40
