@@ -192,7 +192,8 @@ lock: ## Renew requirements.lock from pyproject.toml
 .PHONY: clean
 clean: ## Remove results and what Snakemake remembers of them; what was found before, the history, stays
 	@# A history and its checksums are below a folder of this name; a task may be called so, too.
-	find results -mindepth 1 -not -type d \( -path '*/runs/*' -o -not -path '*/history/*' \) -delete
-	find results -mindepth 1 -type d -empty -delete
+	find results/ -mindepth 1 -not -type d \( -path '*/runs/*' -o -path '*/adopted/*' -o -path '*/benchmarks/*' -o -path '*/logs/*' \
+		-o -not -path '*/history/*' \) -delete
+	find results/ -mindepth 1 -type d -empty -delete
 	rm -rf .snakemake
 	git checkout --quiet -- results

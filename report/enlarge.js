@@ -3,6 +3,7 @@ for (const region of document.querySelectorAll(".picture")) {
   const button = document.createElement("button");
   Object.assign(button, { type: "button", className: "enlarge", textContent: "Enlarge the figure" });
   button.setAttribute("aria-pressed", "false");
+  button.setAttribute("aria-label", `Enlarge the figure: ${region.getAttribute("aria-label")}`);
   button.addEventListener("click", () => button.setAttribute("aria-pressed", String(region.classList.toggle("large"))));
   region.after(button);
 }

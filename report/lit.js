@@ -69,8 +69,10 @@ class Runs {
     if (this.kind === "alone") return { number: 0, far: reach };
     this.unpack();
     const points = this.x.length;
-    const after = this.kind === "curves" ? Math.max(1, this.x.findIndex((one) => one >= x)) : 0;
-    const part = this.kind === "curves" ? (x - this.x[after - 1]) / (this.x[after] - this.x[after - 1] || 1) : 0;
+    const beyond = this.x.findIndex((one) => one >= x); // −1: right of the last point, where the labels are
+    const after = this.kind === "curves" ? Math.max(1, beyond < 0 ? points - 1 : beyond) : 0;
+    const into = (x - this.x[after - 1]) / (this.x[after] - this.x[after - 1] || 1);
+    const part = this.kind === "curves" ? Math.min(1, Math.max(0, into)) : 0;
     let found = { number: -1, far: Infinity };
     for (let number = 0; number < this.size; number += 1) {
       const from = this.y[number * points + after - 1];

@@ -5,6 +5,7 @@ so only a name that a person has given is looked up, never one that stands in a 
 """
 
 import ast
+import importlib
 import inspect
 import sys
 from collections.abc import Callable, Iterator
@@ -169,7 +170,11 @@ def _guarded(agent: Agent, doing: str, call: Callable[[], Any]) -> Any:
 def _said(error: BaseException) -> str:
     """An error in one line, with the place in the agent's own code."""
     words = " ".join(str(error).split())[:200]
-    frames = [frame for frame in extract_tb(error.__traceback__) if frame.filename != __file__]
+    frames = [
+        frame
+        for frame in extract_tb(error.__traceback__)
+        if frame.filename not in (__file__, importlib.__file__)
+    ]
     outside = [frame for frame in frames if not frame.filename.startswith("<")]
     where = f" ({Path(outside[0].filename).name}, line {outside[0].lineno})" if outside else ""
     return f"{type(error).__name__}: {words}{where}"

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from upswing.analysis.history.configuration import Difference, differences
+from upswing.analysis.history.configuration import Difference, differences, union
 from upswing.analysis.history.sides import TIMED, Side, rounded
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def compare(sides: Sequence[Side]) -> Comparison:
     cells, same, partial_cells = _cells(sides)
     verdicts = [dict(zip(s.verdicts["claim"], s.verdicts["verdict"], strict=True)) for s in sides]
     judged = [
-        (claim, tuple(str(own.get(claim, NONE)) for own in verdicts)) for claim in _union(verdicts)
+        (claim, tuple(str(own.get(claim, NONE)) for own in verdicts)) for claim in union(verdicts)
     ]
     return Comparison(
         configuration=differences(known) if len(known) == len(sides) else None,
@@ -120,17 +120,13 @@ def compare(sides: Sequence[Side]) -> Comparison:
     )
 
 
-def _union(mappings: Sequence[dict[str, Any]]) -> list[str]:
-    return list(dict.fromkeys(name for mapping in mappings for name in mapping))
-
-
 def _presence(
     mappings: Sequence[dict[str, Any]],
 ) -> tuple[list[str], dict[tuple[bool, ...], list[str]]]:
     """The names that all have; and the others, by who has them."""
     common: list[str] = []
     partial: dict[tuple[bool, ...], list[str]] = {}
-    for name in _union(mappings):
+    for name in union(mappings):
         there = tuple(name in mapping for mapping in mappings)
         if all(there):
             common.append(name)

@@ -14,7 +14,7 @@ from upswing.analysis.fragility import fragile_because
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
-from upswing.study.claim_parts import Bound, Part, Verdict, weakest
+from upswing.study.claim_parts import NOT_HERE, Bound, Part, Verdict, weakest
 from upswing.study.claims import Claim, canonical_claims, cells_of_claims
 from upswing.study.paths import EVIDENCE, LEDGER_OF_VERDICTS, VERDICTS
 
@@ -139,7 +139,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
             needed = cells or tuple(filter(None, [claim.cell]))  # made-up problems need none
             if missing := [cell for cell in needed if cell not in results.cells]:
                 estimate = statistics.no_runs()
-                verdict: Verdict = "not in this study"
+                verdict: Verdict = NOT_HERE
                 own = np.empty(0)
                 says = f"{part.says}: needs {', '.join(missing)}"
             else:
@@ -167,7 +167,7 @@ def judge(results: Results, name: str, claim: Claim) -> list[Evidence]:
                     spread_high=statistics.spread(own)[1],
                     verdict=verdict,
                     could_be_better=part.could_be_better(estimate),
-                    at_threshold=verdict != "not in this study" and part.at_threshold(estimate),
+                    at_threshold=verdict != NOT_HERE and part.at_threshold(estimate),
                     diverged=_diverged(results, cells),
                     because=part.because,
                 )

@@ -149,5 +149,7 @@ class Cell:
         rows: dict[str, object] = {"runs": len(self), "steps": self.task.steps}
         for measure in (*self.task.first_measures, "greedy_success_share"):
             found = self.estimate(measure)
-            rows[measure] = f"{found.value:.4g}  ({found.low:.4g} to {found.high:.4g})"
+            rows[measure] = (
+                f"{found.value:.4g}  ({found.low:.4g} to {found.high:.4g})" if found.n else None
+            )
         return table_of(f"{self.id}: means, with 95 % intervals", rows)

@@ -94,7 +94,10 @@ class Policy:
             raise BadInput(wrong)
         if task.wraps and abs(start) > np.pi:
             start = (start + np.pi) % (2 * np.pi) - np.pi
-        by_step = {round(second / time_step): push for second, push in given.items()}
+        by_step: dict[int, float] = {}
+        for second, push in given.items():  # two in one step are both felt
+            step = round(second / time_step)
+            by_step[step] = by_step.get(step, 0.0) + push
         steps = round(seconds / time_step)
         followed = self.learned.simulate(start, angular_velocity, steps, by_step)
         return of_simulation(followed, time_step)
@@ -147,6 +150,7 @@ def _wrong(
         right = f"must be between {time_step:g} and {longest:,.0f} [s]"
         yield problem("simulate", "seconds", seconds, right)
     for second, push in pushes.items():
-        if not 0 <= second < seconds or not isfinite(push):
+        is_felt = 0 <= second < seconds and round(second / time_step) < round(seconds / time_step)
+        if not is_felt or not isfinite(push):
             right = "must be seconds within the time, and a change of φ̇ [rad/s]"
             yield problem("simulate", "pushes", {second: push}, right)

@@ -18,6 +18,7 @@ from upswing.runs.files.typed_table import Columns, read_table
 from upswing.runs.learned import learned_by
 from upswing.runs.results import TRAJECTORY, WINDOWS
 from upswing.runs.rows import collected
+from upswing.study.config import ADOPTED
 from upswing.study.errors import BadInput
 from upswing.study.ids import file_of, recording_of
 from upswing.study.spec import Spec
@@ -132,9 +133,14 @@ class Run(ABC):
 
         Raises:
             DifferentRun: a stored step, a window or a weight differs in a single bit.
+            BadInput: it is of an agent from elsewhere, which only ``upswing adopt`` asks.
         """
         from upswing.api.training import learned_here
 
+        if self.spec.architecture.learner == ADOPTED:
+            raise BadInput(
+                [f"{self.id}: is of an agent from elsewhere; `upswing adopt` runs it again"]
+            )
         digest, first = self.measures["digest"], self.trajectory
         again = learned_here(self.spec, "learned again: bit for bit the same")
         other = again.at(first["step"].to_numpy())
@@ -216,4 +222,5 @@ def _differs(one: Any, other: Any) -> NDArray[np.bool_]:
     """Where two arrays differ in a bit, NaN being NaN."""
     a, b = np.asarray(one), np.asarray(other)
     both_nan = (a != a) & (b != b)
-    return np.asarray((a != b) & ~both_nan)
+    signs = np.signbit(a) != np.signbit(b) if a.dtype.kind == "f" else False  # −0 equals 0
+    return np.asarray(((a != b) | signs) & ~both_nan)

@@ -14,9 +14,10 @@ from upswing.api.shown import table_of
 from upswing.api.training import learned_here
 from upswing.runs.files.tables import read_cells, read_evidence, read_verdicts
 from upswing.runs.results import Results
+from upswing.study.asked_run import FORM
 from upswing.study.config import Study as Configuration
 from upswing.study.errors import BadInput, near
-from upswing.study.ids import run_of
+from upswing.study.ids import named_by
 from upswing.study.names import alpha_text
 from upswing.study.paths import STUDY, VERDICTS
 
@@ -78,7 +79,8 @@ class Study:
         if cell is not None:
             if any(value is not None for value in given.values()):
                 raise BadInput([f"cell: {cell}: give an id, or task, architecture and alpha"])
-            found = cell.strip("/").removeprefix("runs/")
+            named = named_by(cell)
+            found = cell if named is None else named.cell
             if found not in known:
                 raise BadInput([f"{self.folder}: {cell}: no such cell; {near(found, known)[:300]}"])
             return Cell(self._results, found)
@@ -88,7 +90,7 @@ class Study:
             for name, spec in known.items()
             if task in (None, spec.task.name)
             and architecture in (None, spec.architecture.name)
-            and (alpha is None or spec.alpha == alpha)
+            and (alpha is None or alpha_text(spec.alpha) == alpha_text(float(alpha)))
         ]
         if len(matching) != 1:
             asked = ", ".join(
@@ -106,12 +108,10 @@ class Study:
         Raises:
             BadInput: there is no such run; it names near ones.
         """
-        found = _id_of(run)
-        cell, _, seed = found.rpartition("/seed-")
-        if not cell or not seed.isdecimal():
-            right = "a run is task/architecture/alpha-α/seed-number"
-            raise BadInput([f"{self.folder}: {run}: no such run; {right}"])
-        return self.cell(cell).run(int(seed))
+        named = named_by(run)
+        if named is None or named.seed is None:
+            raise BadInput([f"{self.folder}: {run}: no such run; {FORM}"])
+        return self.cell(named.cell).run(named.seed)
 
     def train(
         self,
@@ -205,12 +205,3 @@ def _beside(place: Path) -> str:
         sorted(path.parent.name for path in near_by.glob(f"*/{STUDY}")) if near_by.is_dir() else []
     )
     return f"; in {near_by} there are {', '.join(found[:5])}" if found else ""
-
-
-def _id_of(run: str) -> str:
-    """The id of a run that was given as one, or as the path of one of its files."""
-    from upswing.study.ids import RUN_FILES
-
-    for ending in RUN_FILES:
-        run = run.removesuffix(f".{ending}")
-    return run_of(run.strip("/"))

@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+from upswing.study.wording import listed
+
 if TYPE_CHECKING:
     from upswing.figures.three_and_all import Shown
 
@@ -37,15 +39,15 @@ def what_decides(shown: "Shown") -> str:
     if shown.decided:
         names = list(dict.fromkeys(one.claim for one in shown.decided))
         words = (
-            f" Below, what decides {_listed(names)}: every run as a dot, and at the right the estimate "
-            "with its 95 % interval. A claim holds in the shaded part, and partly up to the dashed line."
+            f" Below, what decides {listed(names)}: every run as a dot where each is measured, and at "
+            "the right the estimate with its 95 % interval. A claim holds in the shaded part, and "
+            "partly up to the dashed line."
         )
         if any(row.beside for one in shown.decided for row in one.rows):
-            words += " Hollow dots are other step sizes, for comparison: they decide nothing."
+            words += (
+                " Pale dots with a hollow estimate are other step sizes, for comparison: they decide "
+                "nothing."
+            )
     if shown.lacking:
-        words += f" Of {_listed(shown.lacking)} this study has not all cells."
+        words += f" Of {listed(shown.lacking)} this study has not all cells."
     return words
-
-
-def _listed(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

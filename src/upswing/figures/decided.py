@@ -10,12 +10,11 @@ from upswing.analysis.comparisons import by_seed, compare, counts, samples
 from upswing.analysis.statistics import Estimate
 from upswing.analysis.verdicts import Evidence, judge
 from upswing.runs.results import Results
-from upswing.study.claim_parts import Part
+from upswing.study.claim_parts import NOT_HERE, Part
 from upswing.study.claims import Claim
+from upswing.study.ids import CellId
 
 Real = NDArray[np.float64]
-
-NOT_HERE = "not in this study"
 
 
 class Dots(NamedTuple):
@@ -99,9 +98,9 @@ def _dots(results: Results, part: Part, cells: tuple[str, ...]) -> list[Dots]:
 
 def _beside(results: Results, part: Part, cell: str, others: Sequence[str]) -> list[Row]:
     """The same share of other cells of the same task and architecture."""
-    alike = cell.rpartition("/")[0]
+    alike = CellId.parse(cell)[:2]
     return [
         Row(compare(results, part, (other,)), _dots(results, part, (other,)), None, beside=True)
         for other in others
-        if other != cell and other.rpartition("/")[0] == alike and other in results.cells
+        if other != cell and CellId.parse(other)[:2] == alike and other in results.cells
     ]

@@ -17,6 +17,7 @@ from upswing.figures.appearance import MUTED, SMALL
 from upswing.figures.decided import Decided, Row
 from upswing.figures.measures import AxisOf, axis_of, threshold_of
 from upswing.runs.results import Results
+from upswing.study.claim_parts import COUNTED
 from upswing.study.ids import CellId
 
 ROW = 0.145
@@ -36,9 +37,6 @@ HOLDS = "#DCEFE3"
 
 LEAST = 0.05
 """How far a scale of differences reaches at least, in the unit of the table."""
-
-UNITS = {"share_contracting": "problems", "share_represented": "starts"}
-"""What is counted, where it is not runs."""
 
 DRAWN_AS_DOTS = 60
 """So many dots of a panel are drawn as such; more in pixels."""
@@ -106,7 +104,7 @@ def _runs(axes: Axes, decided: Decided, results: Results, task: str) -> list[flo
         if row.counted is not None:
             labels.append("")
             successes, of = row.counted
-            unit = UNITS.get(decided.part.kind, "runs")
+            unit = COUNTED.get(decided.part.kind, "runs")
             axes.annotate(
                 f"{successes} of {of} {unit}", (0.0, at), xycoords=("axes fraction", "data"),
                 va="center", fontsize=SMALL,

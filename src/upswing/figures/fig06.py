@@ -46,7 +46,7 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
         "Q-learning with a table in the balancing task for four step sizes α. Left: the angle. "
         f"{ORDERED_BY_FALLS}. Right: falls of all {' or '.join(map(str, sizes))} runs; {ENSEMBLE}. The "
         f"scales on the right differ. What to see: r{without}"
-        f"{'; the smaller α, the more' if grows else ''}.{what_decides(shown)}"
+        f"{'; the smaller α is, the more such runs' if grows else ''}.{what_decides(shown)}"
     )
     alt = f"R{without}."
     return panels.Drawing(shown.figure, caption, shown.runs, alt)

@@ -46,7 +46,7 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
         f"of all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of the table "
         "with α = 1 (figure 5). What to see: in the median, networks fall "
         f"{early[0]} in the first 5,000 steps and {late[0]} in their last fifth; the table falls "
-        f"{early[1]} and {late[1]}. {frequency(results, CELL)}{others}{what_decides(shown)}"
+        f"{early[1]} and {late[1]} respectively. {frequency(results, CELL)}{others}{what_decides(shown)}"
     )
     alt = f"Networks: {frequency(results, CELL)}{others}"
     return panels.Drawing(shown.figure, caption, shown.runs, alt)

@@ -53,7 +53,9 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
 def _most(shown: "Shown") -> str:
     """With which of the cells that the claims look at most runs stand, as a sentence."""
     shares = [row for one in shown.decided for row in one.evidence if one.part.kind == "share"]
-    most = {row.cells: row for row in shares if row.estimate > HALF}
+    if not any(row.n for row in shares if row.cells != CELL):
+        return ""
+    most = {row.cells: row for row in shares if row.estimate > HALF and row.cells != CELL}
     if not most:
         return " In no other cell of the claims do most runs stand."
     words = []

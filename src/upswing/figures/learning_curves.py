@@ -21,7 +21,6 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures import panels
     from upswing.figures.interaction import Curves, remember
     from upswing.figures.style import dashes, grid_of_panels
-    from upswing.figures.success_share import share
     from upswing.study.ids import CellId
 
     figure, axes = grid_of_panels(2, (1, 1), height=2.4)
@@ -37,7 +36,7 @@ def draw(results: "Results") -> "Drawing":
         for cell in cells:
             architecture = CellId.parse(cell).architecture
             best = chosen.get(architecture)
-            if best is None or share(results, cell).value > share(results, best).value:
+            if best is None or _succeeds(results, cell) > _succeeds(results, best):
                 chosen[architecture] = cell
         groups = {
             "best α": list(chosen.values()),
@@ -87,7 +86,7 @@ def draw(results: "Results") -> "Drawing":
                 panel.set_xlim(0, float(last[-1]))
             panels.steps_axis(panel, 4)
             panels.label_ends(panel, ends)
-    what = "; ".join(seen)
+    what = ". ".join(seen)
     see = f" What to see: where the medians on the left end. {what}." if what else ""
     caption = (
         "Medians over the runs, with the band between the quartiles; modular ones are dashed. Left: "
@@ -96,6 +95,14 @@ def draw(results: "Results") -> "Drawing":
     )
     alt = f"Where the medians end with the best α. {what}." if what else ""
     return panels.Drawing(figure, caption, [], alt)
+
+
+def _succeeds(results: "Results", cell: str) -> float:
+    """The share of a cell's runs that succeed [%]; below all others where every run diverged."""
+    from upswing.figures.success_share import share
+
+    found = share(results, cell)
+    return found.value if found.of else -1.0
 
 
 def _ends(learned: list[tuple[float, str]], judged_by: str) -> str:
@@ -108,4 +115,4 @@ def _ends(learned: list[tuple[float, str]], judged_by: str) -> str:
         f"{words} at {told.number(round(value, 1))}{'' if falls else ' %'}"
         for value, words in ordered
     ]
-    return f"{', '.join(values)} {'falls per 1,000 steps' if falls else 'of steps upright'}"
+    return f"{'; '.join(values)} {'falls per 1,000 steps' if falls else 'of steps upright'}"

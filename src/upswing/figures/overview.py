@@ -97,7 +97,7 @@ def _best(results: "Results", task: str, cells: "Sequence[str]") -> str:
     if not cells:
         return f"in {task} none learns"
     found = {cell: share(results, cell) for cell in cells}
-    best = max(found, key=lambda cell: found[cell].value)
+    best = max(found, key=lambda cell: found[cell].value if found[cell].of else -1.0)
     most = sum(one.value > HALF for one in found.values())
     words = f"{found[best].successes} of {found[best].of} with {CellId.parse(best).label}"
     return (

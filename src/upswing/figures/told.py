@@ -72,12 +72,15 @@ def of_a_part(part: Decided | None) -> str:
 
 def over_alpha(results: Results, task: str, architecture: str, cells: Mapping[float, str]) -> str:
     """From the worst to the best step size of an architecture, and which are the best."""
-    found = {alpha: share(results, cell).value / 100 for alpha, cell in sorted(cells.items())}
+    shares = {alpha: share(results, cell).value / 100 for alpha, cell in sorted(cells.items())}
+    found = {alpha: value for alpha, value in shares.items() if not np.isnan(value)}
+    if not found:
+        return f"of {architecture} ({task}) every run diverged"
     low, high = min(found.values()), max(found.values())
     if low == high:
-        return f"{architecture} ({task}) succeeds in {per_cent(low)} of runs whatever α"
+        return f"of {architecture} ({task}) {per_cent(low)} of runs succeed whatever α"
     best = " and ".join(f"{alpha:g}" for alpha, value in found.items() if value == high)
     return (
-        f"{architecture} ({task}) succeeds in {per_cent(low)} to {per_cent(high)} of runs, most often "
-        f"with α = {best}"
+        f"of {architecture} ({task}) {per_cent(low)} to {per_cent(high)} of runs succeed, most with "
+        f"α = {best}"
     )

@@ -2,7 +2,6 @@
 
 import os
 import re
-import signal
 import socket
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -14,6 +13,7 @@ from urllib.parse import quote
 
 import pandas as pd
 
+from upswing.recordings.asked_to_end import ended_by_signals, wait_for
 from upswing.recordings.ports import LOOPBACK, check_free
 from upswing.recordings.processes import running
 from upswing.recordings.program import RERUN
@@ -139,14 +139,8 @@ def show(catalog: Catalog, web: bool, web_port: int) -> None:
         print(
             f"{catalog.runs:,} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it."
         )
-    # However it is asked to end, it ends as by Ctrl-C; a shell may have switched that off.
-    for sign in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(sign, signal.default_int_handler)
-    with running(command) as process:
-        try:
-            process.wait()
-        except KeyboardInterrupt:
-            print()
+    with ended_by_signals(), running(command) as process:
+        wait_for(process)
 
 
 def has_display() -> bool:

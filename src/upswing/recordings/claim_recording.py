@@ -99,8 +99,10 @@ def _words(results: Results, name: str, claim: Claim, three: pd.DataFrame) -> st
     verdict = weakest([row.verdict for row in evidence])
     task, cell = results.task(str(claim.cell)), str(claim.cell)
     order = [measure for measure in task.order_of_runs if measure != "seed"]
-    counted, all_runs = len(results.in_order(cell)), len(results.cell(cell))
+    counted, all_runs = len(results.counted(cell)), len(results.cell(cell))
     left_out = "" if counted == all_runs else f" ({all_runs - counted} diverged and are left out)"
+    if not counted:
+        counted, left_out = all_runs, " (every one diverged)"
     by = ", then by ".join(
         f"{label(measure)} ({'lowest' if task.order_of_runs[measure] else 'highest'} first)"
         for measure in order

@@ -1,6 +1,5 @@
 """Viewers that wait for what is streamed to them: a window, or a page for where there is no display."""
 
-import signal
 import subprocess
 import time
 from collections.abc import Iterator
@@ -8,6 +7,7 @@ from contextlib import contextmanager
 from typing import NamedTuple
 from urllib.parse import quote
 
+from upswing.recordings.asked_to_end import LOOKED_EVERY, heed, wait_for
 from upswing.recordings.catalog import has_display, tunnel
 from upswing.recordings.fence import fenced
 from upswing.recordings.ports import LOOPBACK, check_free, free_port, listens
@@ -31,12 +31,13 @@ class Looking(NamedTuple):
 
     @property
     def looks(self) -> bool:
-        """Whether the viewer is still there."""
+        """Whether the viewer is still there; ``KeyboardInterrupt`` if we were asked to end."""
+        heed()
         return self.process.poll() is None
 
     def until_closed(self) -> None:
         """Wait until the viewer is closed."""
-        self.process.wait()
+        wait_for(self.process)
 
 
 @contextmanager
@@ -87,23 +88,6 @@ def page(port: int, web_port: int) -> Iterator[Looking]:
         yield Looking(_url(port), f"at {address}\n{elsewhere}\nCtrl-C ends it.", process)
 
 
-@contextmanager
-def ended_by_signals() -> Iterator[None]:
-    """Ctrl-C, and being asked to end, end the block and are no failure."""
-    # A shell may have switched Ctrl-C off.
-    before = [
-        (sign, signal.signal(sign, signal.default_int_handler))
-        for sign in (signal.SIGINT, signal.SIGTERM)
-    ]
-    try:
-        yield
-    except KeyboardInterrupt:
-        print()
-    finally:
-        for sign, handler in before:
-            signal.signal(sign, handler)
-
-
 def _url(port: int) -> str:
     return f"rerun+http://{LOOPBACK}:{port}/proxy"
 
@@ -114,4 +98,5 @@ def _started(process: Process, *ports: int) -> None:
     while not all(map(listens, ports)):
         if process.poll() is not None or time.monotonic() > until:
             raise RuntimeError(f"{RERUN.name}: the viewer did not start")
-        time.sleep(0.05)
+        heed()
+        time.sleep(LOOKED_EVERY)

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from upswing.physics.environment import NEVER, Trajectory
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import wrapped
+from upswing.recordings.asked_to_end import ended_by_signals
 from upswing.recordings.live import Live, Plan
-from upswing.recordings.looking import Looking, ended_by_signals
+from upswing.recordings.looking import Looking
 from upswing.recordings.slide import Slide, write_slide
 from upswing.recordings.watch import about
 from upswing.runs.learned import WEIGHTS, Learned, learned_by, load_learned
@@ -128,7 +129,9 @@ def _check(learned: Learned, start: Start) -> None:
     if not (isfinite(start.seconds) and TIME_STEP <= start.seconds <= LONGEST):
         right = f"must be a time from {TIME_STEP:g} to {LONGEST:g} s"
         problems.append(f"--seconds: {start.seconds:g}: {right}")
-    elif start.push and not 0 <= start.at < start.seconds:
+    elif start.push and not (
+        0 <= start.at < start.seconds and round(start.at / TIME_STEP) < start.steps
+    ):
         right = f"must be a time before the end, {start.seconds:g} s"
         problems.append(f"--at: {start.at:g}: {right}")
     if problems:
@@ -156,7 +159,7 @@ def in_words(played: Played) -> str:
     share = float(np.mean(played.upright[-judged:]))
     verdict = "it stands" if share >= SUCCESS else "it does not stand"
     said.append(
-        f"At the end, {verdict}: upright for {share:.0%} of the last {judged * TIME_STEP:.3g} s."
+        f"At the end, {verdict}: upright for {100 * share:.3g} % of the last {judged * TIME_STEP:.3g} s."
     )
     return " ".join(said)
 
@@ -179,8 +182,12 @@ def play_in(viewer: AbstractContextManager[Looking], played: Played) -> None:
     with ended_by_signals(), viewer as looking:
         print(f"{_title(played)}, {looking.says}\n{in_words(played)}", flush=True)
         live = _live(played)
-        live.stream.connect_grpc(looking.url)
-        _draw(live, played)
+        try:
+            live.stream.connect_grpc(looking.url)
+            _draw(live, played)
+        except BaseException:
+            live.abandon()
+            raise
         live.end()
         looking.until_closed()
 

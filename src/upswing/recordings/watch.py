@@ -9,8 +9,9 @@ import numpy as np
 
 from upswing.physics.environment import Trajectory, empty_trajectory
 from upswing.physics.pendulum import Pendulum
+from upswing.recordings.asked_to_end import ended_by_signals
 from upswing.recordings.live import Live
-from upswing.recordings.looking import Looking, ended_by_signals
+from upswing.recordings.looking import Looking
 from upswing.recordings.pace import BETWEEN, FAST, Pace
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.metrics import STABLE_STEPS, UPRIGHT
@@ -51,8 +52,8 @@ def watch(
     setting, trajectory = prepare(spec, seed), empty_trajectory(steps)
     setting.advance(trajectory, 0, 0)  # compiles, or fetches what was compiled
     live = Live(spec, setting.body, pace.plan(steps), _drawn(spec, trajectory))
-    connect(live)
     try:
+        connect(live)
         live.begin("following")
         live.tell([Event(0, "INFO", "start")])
         looked = [_known(setting, 0)]
@@ -72,7 +73,7 @@ def watch(
         outcome = outcome_of(spec, seed, setting, trajectory)
         _tell_outcome(live, spec, trajectory, outcome, looked)
         at_end(live)
-    except Closed:
+    except (Closed, KeyboardInterrupt):
         live.abandon()
         raise
     except BaseException:
@@ -186,11 +187,12 @@ def _progress(spec: Spec, trajectory: Trajectory, step: int, falls: int) -> str:
     time_step, steps = Pendulum().time_step, spec.task.steps
     recent = trajectory.angle[max(0, step - STABLE_STEPS) : step]
     upright = float(np.mean(np.cos(recent) >= np.cos(UPRIGHT)))
+    doing = "It is running" if spec.alpha is None else "It is learning"
     return about(
         spec,
-        f"**It is learning: step {step:,} of {steps:,}**, {step * time_step:,.0f} s of "
-        f"{steps * time_step:,.0f} s. So far it fell {falls:,} times; of its last {len(recent):,} steps "
-        f"{upright:.0%} were upright.",
+        f"**{doing}: step {step:,} of {steps:,}**, {step * time_step:,.0f} s of "
+        f"{steps * time_step:,.0f} s. Falls so far: {falls:,}; of its last {len(recent):,} steps "
+        f"{100 * upright:.0f} % were upright.",
         over_the_whole_run=False,
     )
 

@@ -16,7 +16,7 @@ OF_GROWTH = {
 }  # fmt: skip
 OF_AN_EDIT = {"edit": "text", "seconds": "number", "goal": "number", "met": "truth"}
 
-NOT_STUDY = ("sweep", "readings")
+NOT_STUDY = ("sweep", "finalists", "readings")
 """Rules of ``make readings``, which is not the study itself."""
 
 

@@ -81,8 +81,8 @@ def _networks_depend(verdicts: list[Row]) -> Iterator[Finding]:
     if depend:
         yield Finding(
             f"{len(depend)} of {len(asked)}",
-            "claims about networks depend on what the thesis does not say, above all on the rate η of "
-            "backpropagation. They hold under some readings and fail under others.",
+            "claims about networks depend on what the thesis does not say. They hold under some "
+            "readings and fail under others.",
             "Probabilities over readings: "
             + ", ".join(f"{row['claim']} {row['weighted_share']:.2f}" for row in depend),
             str(depend[0]["claim"]),
@@ -118,5 +118,8 @@ def _over_readings(verdicts: list[Row], claim: str) -> str:
     for row in verdicts:
         if row["claim"] == claim and not pd.isna(row["weighted_share"]):
             share = f"{row['weighted_share']:.2f}"
-            return f". The thesis’s {claim} holds with probability {share} over readings"
+            return (
+                f". Where the thesis can be read in several ways, its claim {claim} holds with "
+                f"probability {share}"
+            )
     return ""

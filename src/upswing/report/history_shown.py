@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 from upswing.analysis.history.entry import Changed, Listed
 from upswing.analysis.history.read import listed
+from upswing.study.claim_parts import NOT_HERE
 
 MOST = 10
 """Largest number of entries that the page shows, the newest."""
@@ -13,7 +14,6 @@ MOST_KEYS = 6
 """Largest number of changed keys that are named of an entry."""
 
 SIGNS = {"reproduced": "✓", "partly": "◐", "not reproduced": "✗", "inconclusive": "?"}
-NOT_JUDGED = "not in this study"
 
 
 class ShownEntry(NamedTuple):
@@ -42,7 +42,7 @@ def history(results: Path) -> dict[str, Any]:
     every = listed(results)[::-1]
     shown = every[:MOST]
     judged = dict.fromkeys(
-        claim for entry in shown for claim, word in entry.verdicts.items() if word != NOT_JUDGED
+        claim for entry in shown for claim, word in entry.verdicts.items() if word != NOT_HERE
     )
     return {
         "entries": [_shown(entry) for entry in shown],
@@ -53,8 +53,8 @@ def history(results: Path) -> dict[str, Any]:
 
 def _verdict(entry: Listed, claim: str) -> tuple[str, str]:
     """The verdict of an entry, and the sign for it; both empty where it was not judged."""
-    word = entry.verdicts.get(claim, NOT_JUDGED)
-    return ("", "") if word == NOT_JUDGED else (word, SIGNS.get(word, "?"))
+    word = entry.verdicts.get(claim, NOT_HERE)
+    return ("", "") if word == NOT_HERE else (word, SIGNS.get(word, "?"))
 
 
 def _shown(entry: Listed) -> ShownEntry:

@@ -1,6 +1,5 @@
 """The page: what each part of the template is given."""
 
-from math import atan, degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,8 +8,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
+from upswing.figures.phases import HELD
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -39,6 +38,7 @@ from upswing.runs.files.tables import read_cells, read_evidence, read_runs
 from upswing.runs.files.typed_table import Columns, read_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
+from upswing.study.claim_parts import NOT_HERE
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
@@ -125,7 +125,8 @@ def page_of(
     by_name = {row["cell"]: row for row in cells}
     found = findings(by_name, verdicts)
     drawn_figures = shown_figures(results)
-    empirical = [row for row in verdicts if not row["check"]]
+    here = [row for row in verdicts if row["verdict"] != NOT_HERE]
+    empirical = [row for row in here if not row["check"]]
     shown = {
         "study": study,
         "adopted": [spec.architecture for spec in there.adopted],
@@ -142,7 +143,7 @@ def page_of(
         "exploratory": exploratory(templates),
         "over": over_readings(results, templates, verdicts),
         "body": Pendulum(),
-        "held": _held(Pendulum()),
+        "held": HELD,
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": by_name,
@@ -151,7 +152,9 @@ def page_of(
         "interactive": embedded(drawn_figures, step_size_numbers(cells, study), study),
         "verdicts": verdicts,
         "counts": counts(empirical),
-        "checks": [row for row in verdicts if row["check"]],
+        "judged": len(empirical),
+        "new_runs": len(ours),
+        "checks": [row for row in here if row["check"]],
         "figures": {figure["name"]: figure for figure in drawn_figures},
         "own_figures": [name for name in study.figures if name not in figures.NAMES],
         "beyond": _beyond(results, chapter_at),
@@ -201,11 +204,6 @@ def _greedy(runs: list[Row]) -> dict[str, float]:
     return {
         str(k): float(v) for k, v in frame.groupby(cells)["greedy_success_share"].mean().items()
     }
-
-
-def _held(body: Pendulum) -> float:
-    """Where a cart that is pushed one way for ever holds the rod, from upright [degrees] (eq. 13)."""
-    return 180 - degrees(atan(max(ACCELERATIONS) / body.gravity))
 
 
 def _animation(results: Path) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 from upswing.figures import FIGURES, NAMES, claims_of, drawable
 from upswing.recordings.comparison_names import comparison_names
 from upswing.report.citation import FILE as CITATION
-from upswing.report.targets_of_sweeps import ASKING_FOR_READINGS, SWEPT, TargetsOfSweeps
+from upswing.report.targets_of_sweeps import SWEPT, TargetsOfSweeps
 from upswing.runs.adopted import files_of
 from upswing.study.claims import Claim, canonical_claims, cells_of_claims
 from upswing.study.history_paths import ENTRIES
@@ -237,7 +237,7 @@ class Targets(TargetsOfSweeps):
         Args:
             asked: the targets of this run of the workflow, rules or files.
         """
-        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+        coming = self.are_coming(asked)
         swept = [
             p for p in self._below(*SWEPT) if (coming and p in self.readings) or Path(p).exists()
         ]

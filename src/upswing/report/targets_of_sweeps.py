@@ -82,9 +82,13 @@ class TargetsOfSweeps:
         """What says which readings go on, as one line."""
         return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
 
+    def are_coming(self, asked: Collection[str]) -> bool:
+        """Whether this run of the workflow is asked for the sweeps."""
+        return not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+
     def weighed(self, asked: Collection[str]) -> list[str]:
         """What says how the claims do over readings: the study's own sweeps, or what is shipped."""
-        coming = not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+        coming = self.are_coming(asked)
         (own,) = self._below(ROBUST)
         if (coming and own in self.readings) or Path(own).exists():
             return [own]

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from upswing.study.claim_parts import words_of
+from upswing.study.claim_parts import COUNTED, words_of
 from upswing.study.ids import recording_id, run_of
 from upswing.study.names import alpha_text
 
@@ -89,13 +89,9 @@ def over_readings(row: Row) -> str:
     return f"{row['grade']} ({number(row['weighted_share'], 2)})"
 
 
-UNITS = {"share_contracting": "problems", "share_represented": "starts"}
-"""What an estimate is of, where it is not of runs; by what is measured."""
-
-
 def unit(row: Row) -> str:
     """What a row of evidence counts: runs, or starts, or problems."""
-    return UNITS.get(str(row["measure"]), "runs")
+    return COUNTED.get(str(row["measure"]), "runs")
 
 
 FILTERS = {
@@ -111,6 +107,7 @@ FILTERS = {
         over_readings,
         unit,
         measured,
+        capital,
         groups,
     )
 }

@@ -26,6 +26,7 @@ from upswing.study.architecture import NamedArchitecture, architecture_named
 from upswing.study.config import ADOPTED, Study
 from upswing.study.errors import BadInput, explained, near
 from upswing.study.spec import Spec
+from upswing.study.values import LARGEST_SEED
 
 
 class Asked(NamedTuple):
@@ -57,7 +58,8 @@ def adopt(results: Path, asked: Asked) -> Spec:
 
     Raises:
         BadInput: what was asked for is not possible; nothing was written.
-        RunsFailed: the agent failed in a run; the cell is without the runs that failed.
+        RunsFailed: the agent failed in a run. The cell is declared as it was before; runs that finished
+            are used again by the next call.
     """
     study = read_study(results)
     _check(results, study, asked)
@@ -89,6 +91,11 @@ def _check(results: Path, study: Study, asked: Asked) -> None:
     ]
     if len(set(asked.seeds)) < len(asked.seeds):
         problems.append(f"seed: {asked.seeds}: one stands there twice")
+    problems += [
+        f"seed: {seed}: must be a whole number from 0 to {LARGEST_SEED}"
+        for seed in asked.seeds
+        if not 0 <= seed <= LARGEST_SEED
+    ]
     if problems:
         raise BadInput(problems)
 

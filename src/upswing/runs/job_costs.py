@@ -1,6 +1,7 @@
 """What a job of the workflow took, from Snakemake's measurement of it."""
 
 import csv
+from math import inf
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,4 +34,8 @@ def job_cost(path: Path) -> JobCost | None:
 
 
 def _number(text: str | None) -> float:
-    return 0.0 if text in UNKNOWN else float(str(text))
+    """A time [s]; ``ValueError`` for what is none."""
+    number = 0.0 if text in UNKNOWN else float(str(text))
+    if not 0 <= number < inf:
+        raise ValueError(f"{text}: no time")
+    return number

@@ -1,13 +1,12 @@
 """One run, however it is asked for: by its id, by a specification in JSON, or by what it is made of."""
 
-import re
 from typing import Any, NamedTuple
 
 from pydantic import TypeAdapter, ValidationError
 
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, near, problem
-from upswing.study.ids import RUN_FILES
+from upswing.study.ids import CellId, named_by
 from upswing.study.matrix import Matrix
 from upswing.study.names import NO_ALPHA, Alpha
 from upswing.study.spec import Spec, parse
@@ -52,7 +51,9 @@ def asked_run(study: Study, run: str, asked: Asked) -> Spec:
 
 def _given(text: str, asked: Asked) -> Spec:
     spec = parse(text)
-    if extra := [name for name in ("task", "architecture", "alpha") if getattr(asked, name)]:
+    if extra := [
+        name for name in ("task", "architecture", "alpha") if getattr(asked, name) is not None
+    ]:
         raise BadInput([f"--{extra[0]}: the specification says it already; leave it out"])
     if asked.seed is None and len(spec.seeds) > 1:
         raise BadInput([f"spec: seeds: {list(spec.seeds)}: one run is shown; say which by --seed"])
@@ -61,20 +62,11 @@ def _given(text: str, asked: Asked) -> Spec:
 
 def _said_by(run: str) -> Asked:
     """The parts of an id, or of a path that ends with one."""
-    for ending in RUN_FILES:
-        run = run.removesuffix(f".{ending}")
-    number = r"[0-9]+(?:\.[0-9]+)?"
-    form = rf"(?:.*/)?([^/]+)/([^/]+)/alpha-({number}|{NO_ALPHA})(?:/seed-([0-9]+))?/?"
-    found = re.fullmatch(form, run)
-    if found is None:
+    named = named_by(run)
+    if named is None:
         raise BadInput([f"{run}: {FORM}"])
-    task, architecture, alpha, seed = found.groups()
-    return Asked(
-        task,
-        architecture,
-        None if alpha == NO_ALPHA else float(alpha),
-        None if seed is None else int(seed),
-    )
+    task, architecture, alpha = CellId.parse(named.cell)
+    return Asked(task, architecture, None if alpha == NO_ALPHA else float(alpha), named.seed)
 
 
 def _made(study: Study, asked: Asked) -> Spec:

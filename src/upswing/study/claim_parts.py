@@ -15,6 +15,9 @@ if TYPE_CHECKING:  # the workflow reads claims, and need not wait for scipy
     from upswing.analysis.statistics import Estimate
 
 Verdict = Literal["reproduced", "partly", "inconclusive", "not reproduced", "not in this study"]
+NOT_HERE: Verdict = "not in this study"
+"""What is said of a claim whose cells a study lacks."""
+
 WEAKEST_FIRST: tuple[Verdict, ...] = (
     "not in this study",
     "not reproduced",
@@ -57,6 +60,9 @@ CELLS_OF: dict[str, tuple[int, int]] = {
     "range_of_shares": (2, 9),
 }
 """How many cells each kind compares, at least and at most."""
+
+COUNTED = {"share_contracting": "problems", "share_represented": "starts"}
+"""What an estimate is of, where it is not of runs, by its kind."""
 
 OF_SHARES = ("share", "difference_of_shares", "range_of_shares")
 WITHIN: dict[str, tuple[float, float]] = {

@@ -4,6 +4,7 @@ A cell is ``{task}/{architecture}/alpha-{alpha}``, a run ``{cell}/seed-{seed}``;
 also its paths.
 """
 
+import re
 from typing import NamedTuple
 
 from upswing.study.names import NO_ALPHA, alpha_text
@@ -37,6 +38,26 @@ class CellId(NamedTuple):
             if self.alpha == NO_ALPHA
             else f"{self.architecture}, α = {self.alpha}"
         )
+
+
+class Named(NamedTuple):
+    """The cell, or the run, that somebody named."""
+
+    cell: str
+    seed: int | None  # None: the cell
+
+
+_NAMED = re.compile(
+    rf"(?:.*/)?([^/]+/[^/]+/alpha-(?:[0-9]+(?:\.[0-9]+)?|{NO_ALPHA}))(?:/seed-([0-9]+))?/?"
+)
+
+
+def named_by(text: str) -> Named | None:
+    """What an id names, or a path that ends with one or with a file of a run; None if neither."""
+    for ending in RUN_FILES:
+        text = text.removesuffix(f".{ending}")
+    found = _NAMED.fullmatch(text)
+    return None if found is None else Named(found[1], None if found[2] is None else int(found[2]))
 
 
 def cell_id(task: str, architecture: str, alpha: float | None) -> str:

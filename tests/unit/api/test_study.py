@@ -190,8 +190,8 @@ def test_a_run_is_found_by_its_id_or_a_file_of_it(study, asked):
     [
         (f"{TABLE}/seed-9", "seed: 9: no such run; it has 3, from 0 to 2"),
         ("balancing/table/alpha-2/seed-0", "no such cell; did you mean"),
-        (TABLE, "a run is task/architecture/alpha-α/seed-number"),
-        (f"{TABLE}/seed-x", "a run is task/architecture/alpha-α/seed-number"),
+        (TABLE, "a run is task/architecture/alpha-α/seed-n"),
+        (f"{TABLE}/seed-x", "a run is task/architecture/alpha-α/seed-n"),
     ],
 )
 def test_a_run_that_there_is_not_is_said(study, asked, said):

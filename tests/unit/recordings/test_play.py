@@ -46,7 +46,7 @@ def test_a_good_policy_gets_up_from_hanging_and_stands(good):
     assert np.abs(np.degrees(played.trajectory.angle[-1_000:])).max() < 20
     said = in_words(played)
     assert said.startswith("It was upright after ")
-    assert "At the end, it stands: upright for 100% of the last 5 s." in said
+    assert "At the end, it stands: upright for 100 % of the last 5 s." in said
     after = float(said.removeprefix("It was upright after ").split()[0])
     first = round(after / 0.005)
     assert played.upright[first : first + 100].all()

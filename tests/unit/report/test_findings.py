@@ -56,4 +56,5 @@ def test_networks_depend_where_a_grade_says_so():
         "C5",
         "Probabilities over readings: C5 0.43",
     )
+    assert "η" not in found.says  # no row says which reading it is
     assert findings({}, rows[1:]) == []

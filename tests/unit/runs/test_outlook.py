@@ -9,6 +9,7 @@ import yaml
 from tests.helpers import make_spec
 from tests.paths import ROOT
 from upswing.cli.shown.study import outlook_in_words
+from upswing.runs.job_costs import job_cost
 from upswing.runs.outlook import OF_A_RUN, START, Outlook, outlook, usual
 from upswing.runs.train import train
 from upswing.study.config import validated
@@ -142,10 +143,17 @@ def test_ten_thousand_runs_are_looked_through_at_once(tmp_path):
     ("found", "said"),
     [
         (Outlook(8, 8, 0, 0.0, 2, 5.0, True), "F: all 8 runs are there, none is to be trained; the runs take about 5 MB"),
-        (Outlook(8, 0, 0, 12.0, 2, 5.0, False), "F: none is there, 8 are to be trained: about 10 s on 2 processors, by what such jobs usually take; the runs take about 5 MB"),
-        (Outlook(3_500, 3_450, 0, 600.0, 4, 2_240.0, True), "F: 3,450 of 3,500 runs are there, 50 are to be trained: about 10 minutes on 4 processors, by what its jobs took before; the runs take about 2.2 GB"),
-        (Outlook(8, 0, 8, 7_200.0, 1, 5.0, False), "F: 0 of 8 runs are there, 8 are to be trained, 8 of them anew, for the configuration or the code has changed: about 2.0 hours on 1 processors, by what such jobs usually take; the runs take about 5 MB"),
+        (Outlook(8, 0, 0, 12.0, 2, 5.0, False), "F: none is there, 8 are to be trained: about 10 s on all 2 processors of this machine, by what such jobs usually take; the runs take about 5 MB"),
+        (Outlook(3_500, 3_450, 0, 600.0, 4, 2_240.0, True), "F: 3,450 of 3,500 runs are there, 50 are to be trained: about 10 minutes on all 4 processors of this machine, by what its jobs took before; the runs take about 2.2 GB"),
+        (Outlook(8, 0, 8, 7_200.0, 1, 5.0, False), "F: 0 of 8 runs are there, 8 are to be trained, 8 of them anew, for the configuration or the code has changed: about 2.0 hours on all 1 processors of this machine, by what such jobs usually take; the runs take about 5 MB"),
     ],
 )  # fmt: skip
 def test_it_is_said_in_a_line(found, said):
     assert outlook_in_words(found, "F") == said
+
+
+@pytest.mark.parametrize("text", ["nan", "inf", "-1"])
+def test_a_time_that_is_none_is_as_if_it_were_not_known(tmp_path, text):
+    path = tmp_path / "job.tsv"
+    path.write_text(f"s\tcpu_time\n{text}\t1\n", "utf-8")
+    assert job_cost(path) is None

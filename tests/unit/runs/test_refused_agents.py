@@ -45,7 +45,9 @@ def test_an_agent_that_is_none_is_refused_before_anything_is_written(results, fu
         ({"agent": "agents.py"}, r"agent: agents.py: must be file.py:function or module:function"),
         ({"agent": "lost.py:lean"}, r"agent: lost.py:lean: there is no file lost.py"),
         ({"agent": "./results:lean"}, r"there is no file ./results"),
-        ({"agent": "no.such:f"}, r"cannot be imported: ModuleNotFoundError: No module named 'no'"),
+        ({"agent": "no.such:f"}, r"cannot be imported: ModuleNotFoundError: No module named 'no'$"),
+        ({"agent": "fails:f"}, r"cannot be imported: KeyError: 'here' \(fails.py, line 2\)"),
+        ({"seeds": (2**32,)}, r"seed: 4294967296: must be a whole number from 0 to 4294967295"),
         ({"agent": "wrong.py:f"}, r"cannot be imported: SyntaxError"),
         ({"agent": "leaves.py:f"}, r"cannot be imported: SystemExit: 3 \(leaves.py, line 1\)"),
         ({"task": "balance"}, r"task: balance: no task of results; did you mean 'balancing'\?"),
@@ -57,6 +59,7 @@ def test_an_agent_that_is_none_is_refused_before_anything_is_written(results, fu
 )
 def test_what_cannot_be_adopted_is_said_in_a_line(results, changed, said):
     Path("wrong.py").write_text("def f(:\n", "utf-8")
+    Path("fails.py").write_text("\n{}['here']\n", "utf-8")
     Path("leaves.py").write_text("raise SystemExit(3)\n", "utf-8")
     before = files(results)
     with pytest.raises(BadInput, match=said) as refused:

@@ -54,6 +54,7 @@ def test_a_run_need_not_be_of_the_study():
 @pytest.mark.parametrize(
     ("run", "asked", "words"),
     [
+        (CELL.canonical(), Asked(alpha=0.0), "--alpha: the specification says it already"),
         ("seed-1", Asked(), "seed-1: a run is task/architecture/alpha-α/seed-n"),
         ("full-control/table/alpha-x/seed-1", Asked(), "a run is task/architecture"),
         (

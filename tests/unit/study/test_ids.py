@@ -17,6 +17,7 @@ from upswing.study.ids import (
     cell_id,
     cell_of,
     file_of,
+    named_by,
     recording_id,
     recording_of,
     run_id,
@@ -74,3 +75,21 @@ def test_no_other_file_builds_or_takes_apart_a_path_of_a_run():
         if by_hand.search(line)
     }
     assert set(found) <= {Path("src/upswing/recordings/run_filter.py")}, found  # what a user writes
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("balancing/table/alpha-0.5/seed-3", ("balancing/table/alpha-0.5", 3)),
+        ("balancing/table/alpha-0.5", ("balancing/table/alpha-0.5", None)),
+        ("balancing/idle/alpha-none/seed-0/", ("balancing/idle/alpha-none", 0)),
+        ("results/runs/balancing/table/alpha-1/seed-12.weights.safetensors", ("balancing/table/alpha-1", 12)),
+        ("/a b/runs/balancing/table/alpha-1/seed-12.rrd", ("balancing/table/alpha-1", 12)),
+        ("balancing/table", None),
+        ("balancing/table/alpha-x/seed-1", None),
+        ("balancing/table/alpha-1/seed-", None),
+        ("", None),
+    ],
+)  # fmt: skip
+def test_what_an_id_or_a_path_names(text, expected):
+    assert named_by(text) == expected

@@ -43,7 +43,7 @@ def _differ(key: str, values: list[Any]) -> Iterator[Difference]:
         return
     there = [value for value in values if value is not MISSING]
     if len(there) == len(values) and all(isinstance(value, Mapping) for value in values):
-        for name in _union(values):
+        for name in union(values):
             yield from _differ(
                 f"{key}.{name}" if key else name, [value.get(name, MISSING) for value in values]
             )
@@ -58,7 +58,8 @@ def _differ(key: str, values: list[Any]) -> Iterator[Difference]:
         yield Difference(key, tuple(text_of(value) for value in values))
 
 
-def _union(mappings: Sequence[Mapping[str, Any]]) -> list[str]:
+def union(mappings: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Every name in any of these, once, in the order of the first that has it."""
     return list(dict.fromkeys(name for mapping in mappings for name in mapping))
 
 

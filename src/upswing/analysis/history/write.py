@@ -62,8 +62,8 @@ def write_entry(results: Path, note: str = "") -> Written:
     now = datetime.now(UTC).replace(microsecond=0)
     while (results / places.folder_of(name := f"{now:%Y%m%d-%H%M%S}-{of[:6]}")).exists():
         now += timedelta(seconds=1)  # there and back again within a second
-    difference, text = patch() if provenance().dirty else (b"", True)
     found = provenance()
+    difference, whole = patch() if found.dirty else (b"", True)
     entry = Entry(
         id=name,
         number=last.number + 1 if last else 1,
@@ -72,7 +72,7 @@ def write_entry(results: Path, note: str = "") -> Written:
         note=note,
         commit=found.git_commit,
         dirty=found.dirty,
-        patch=Patch(bytes=len(difference), whole=text) if difference else None,
+        patch=Patch(bytes=len(difference), whole=whole) if difference else None,
         python=found.python,
         packages=found.packages,
         machine=found.machine,

@@ -6,6 +6,7 @@ from string import ascii_uppercase
 from typing import TYPE_CHECKING
 
 from upswing.cli.terminal import has_room, print_table, say
+from upswing.study.wording import listed
 
 if TYPE_CHECKING:
     from upswing.analysis.compare import Comparison, Estimate, Estimates, OfACell
@@ -15,6 +16,9 @@ SHOWN = 10
 
 MOST_ROWS = 40
 """Largest number of rows of cells that are printed where not all are asked for."""
+
+STEP = "first stable step"
+"""The measure of a cell that is infinite where it never came to that."""
 
 INDENT = 4
 """Of what belongs to the line above [columns]."""
@@ -48,7 +52,8 @@ def print_comparison(
     most = None if everything else SHOWN
     _name(comparison.changed_runs, most)
     for there, runs in comparison.partial_runs.items():
-        say(f"{len(runs)} runs are only in {_who(there, letters)}")
+        are = "run is" if len(runs) == 1 else "runs are"
+        say(f"{len(runs)} {are} only in {_who(there, letters)}")
         _name(runs, most)
 
 
@@ -96,7 +101,7 @@ def _side_by_side(rows: "Sequence[OfACell]", letters: Sequence[str]) -> None:
         (
             row.cell,
             row.measure,
-            *(_number(value) for value in row.values),
+            *(_of_a_cell(row.measure, value) for value in row.values),
             "apart" if row.parted else "",
         )
         for row in rows
@@ -113,7 +118,7 @@ def _estimates(values: "Estimates", letters: Sequence[str]) -> str:
     """Estimates side by side; who has none is said in words."""
     lacking = [letter for letter, value in zip(letters, values, strict=True) if value is None]
     if not lacking:
-        numbers = " → ".join(f"{value.value:.4g}" for value in values if value is not None)
+        numbers = " → ".join(_short(value.value) for value in values if value is not None)
         return f"{numbers}, outside each other's intervals"
     there = [
         f"{letter} {_number(value)}"
@@ -121,7 +126,7 @@ def _estimates(values: "Estimates", letters: Sequence[str]) -> str:
         if value is not None
     ]
     verb = "has" if len(lacking) == 1 else "have"
-    return f"{', '.join(there)}; {_and(lacking)} {verb} no estimate of it"
+    return f"{', '.join(there)}; {listed(lacking)} {verb} no estimate of it"
 
 
 def _number(value: "Estimate | None") -> str:
@@ -133,18 +138,19 @@ def _number(value: "Estimate | None") -> str:
     return f"{middle} [{_short(value.low)}, {_short(value.high)}]"
 
 
+def _of_a_cell(measure: str, value: "Estimate | None") -> str:
+    """A median that less than half of the runs reached is infinite: it never was."""
+    return _number(value).replace("∞", "never") if measure == STEP else _number(value)
+
+
 def _short(value: float) -> str:
     if not isfinite(value):
-        return "never"
+        return "∞"
     return f"{value:,.0f}" if abs(value) >= 1_000 else f"{value:.4g}"
 
 
 def _who(there: Sequence[bool], letters: Sequence[str]) -> str:
-    return _and([letter for letter, is_there in zip(letters, there, strict=True) if is_there])
-
-
-def _and(names: Sequence[str]) -> str:
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return listed([letter for letter, is_there in zip(letters, there, strict=True) if is_there])
 
 
 def _name(names: Sequence[str], most: int | None) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from upswing.cli.terminal import print_table, say
+from upswing.study.claim_parts import NOT_HERE
 from upswing.study.history_paths import PATCH, folder_of
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def print_entries(entries: "Sequence[Listed]", damaged: Sequence[str], results: 
 def _cells(entry: "Entry") -> tuple[str, ...]:
     words = list(entry.verdicts.values())
     held = sum(word == "reproduced" for word in words)
-    judged = sum(word != "not in this study" for word in words)
+    judged = sum(word != NOT_HERE for word in words)
     return (
         f"@{entry.number}",
         entry.when_shown,

@@ -38,7 +38,8 @@ def outlook_in_words(outlook: "Outlook", results: str) -> str:
     rates = "by what its jobs took before" if outlook.measured else "by what such jobs usually take"
     return (
         f"{results}: {there}, {outlook.to_train:,} are to be trained{anew}: about "
-        f"{_duration(outlook.seconds)} on {outlook.processors} processors, {rates}; {_size(outlook)}"
+        f"{_duration(outlook.seconds)} on all {outlook.processors} processors of this machine, {rates}; "
+        f"{_size(outlook)}"
     )
 
 

@@ -98,7 +98,7 @@ def story(task: Task, measures: Measures, last_fall: int | None) -> str:
         )
     seconds = STABLE_STEPS * Pendulum().time_step
     stable = f"{STABLE_STEPS:,} steps ({seconds:g} s)"
-    kept = "without a fall" if by_falls else f"with {SUCCESS:.0%} of them upright"
+    kept = "without a fall" if by_falls else f"with {100 * SUCCESS:.0f} % of them upright"
     if measures.first_stable_step is None:
         stood = f"It was never stable: there are no {stable} {kept}."
     else:
@@ -106,7 +106,8 @@ def story(task: Task, measures: Measures, last_fall: int | None) -> str:
         stood = f"It was stable for the first time from step {first}: {stable} {kept}."
     if by_falls:
         ended = measures.falls_last_fifth
-        end = f"{fell}, and {ended:,} times in its last fifth: **it does not balance**."
+        often = "once" if ended == 1 else f"{ended:,} times"
+        end = f"{fell}, and {often} in its last fifth: **it does not balance**."
         if not ended:
             end = f"{fell}, and not once in its last fifth: **it balances**."
     else:

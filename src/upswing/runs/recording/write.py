@@ -143,9 +143,6 @@ def draw_envelope(recording: rr.RecordingStream, windows: Windows, frames: Frame
     )
 
 
-_envelope = draw_envelope
-
-
 def draw_stretches(recording: rr.RecordingStream, frames: Frames) -> None:
     """Which stretch it is at every moment, as a lane of colours; nothing in the gaps between."""
     states: dict[int, str] = {}
