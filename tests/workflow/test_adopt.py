@@ -89,7 +89,8 @@ def test_the_example_of_the_documentation_works_as_it_stands(tmp_path):
     run(sys.executable, "train_ppo.py")
     (command,) = (text for kind, _, text in blocks if kind == "sh")
     program, *words = shlex.split(command)
-    run(BIN / program, *words)
+    assert program == ".venv/bin/upswing"
+    run(BIN / "upswing", *words)
     found = Results(folder)
     cell = "balancing/ppo/alpha-none"
     row = found.cell(cell).iloc[0]
