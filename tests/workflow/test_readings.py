@@ -120,7 +120,9 @@ def changed(**more):
     ],
     ids=["a seed", "a cell"],
 )  # fmt: skip
-def test_what_is_new_in_the_study_neither_sweeps_nor_judges_the_sweeps_again(study, content, trained):
+def test_what_is_new_in_the_study_neither_sweeps_nor_judges_the_sweeps_again(
+    study, content, trained
+):
     study.write(content)
     planned = study.jobs("--dry-run", *TARGETS)
     study.write(STUDY)

@@ -114,7 +114,7 @@ def write_task(path: Path, results: Results, task: str) -> None:
 def write_claim(path: Path, results: Results, claim: str, cell: str) -> None:
     """The worst, the median and the best run of a claim's cell: how they began and ended."""
     runs = [str(run) for run in results.three_of(cell)["run"]]
-    body = body_of(results.cells[cell])
+    body = body_of(results.cells[cell].task.pendulum)
     limit = 1.1 * results.task(cell).angle_limit
     columns = [
         rrb.Vertical(

@@ -8,7 +8,6 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
-from upswing.physics.pendulum import Pendulum
 from upswing.study.measured import Windows
 
 FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
@@ -32,6 +31,7 @@ class Frames(NamedTuple):
 
     steps: Steps  # (rows,)
     gap: NDArray[np.bool_]  # rows that only end a line: (rows,)
+    time_step: float  # [s]
 
     @property
     def drawn(self) -> Steps:
@@ -43,7 +43,9 @@ class Frames(NamedTuple):
         return np.minimum(np.searchsorted(self.steps, steps), len(self.steps) - 1)
 
 
-def stretches(trajectory: Trajectory, windows: Windows, first_stable_step: int | None) -> Frames:
+def stretches(
+    trajectory: Trajectory, windows: Windows, first_stable_step: int | None, time_step: float
+) -> Frames:
     """The stretches shown in full: the beginning, the first success, the worst window, the end."""
     steps = len(trajectory.angle)
     worst = np.lexsort((windows.mean_reward, -windows.falls))[0]
@@ -57,7 +59,7 @@ def stretches(trajectory: Trajectory, windows: Windows, first_stable_step: int |
     ends = np.flatnonzero(shown[:-1] & ~shown[1:]) + 1
     rows = np.sort(np.concatenate([np.flatnonzero(shown), ends]))
     # A gap's row stands at the first step that is not shown.
-    return Frames(rows, ~shown[rows])
+    return Frames(rows, ~shown[rows], time_step)
 
 
 def time_columns(
@@ -67,7 +69,7 @@ def time_columns(
     columns = {
         FRAME: lambda: rr.TimeColumn(FRAME, sequence=frames.at(steps)),
         STEP: lambda: rr.TimeColumn(STEP, sequence=steps),
-        SIM_TIME: lambda: rr.TimeColumn(SIM_TIME, duration=steps * Pendulum().time_step),
+        SIM_TIME: lambda: rr.TimeColumn(SIM_TIME, duration=steps * frames.time_step),
     }
     return [columns[name]() for name in timelines]
 

@@ -6,10 +6,8 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
 from upswing.runs.recording.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.runs.snapshots import Snapshots
 
@@ -19,10 +17,8 @@ TRAIL = 24
 PIXELS = (10, 4)
 """The size of a tile in the maps: of φ and of φ̇."""
 
-ACTION_COLOURS = ((0, 114, 178), (221, 221, 221), (213, 94, 0))
+LEFT, NONE, RIGHT = np.array((0, 114, 178)), np.array((221, 221, 221)), np.array((213, 94, 0))
 MODULES = ("balancing", "upswing")
-UNDECIDED = len(MODULES) * ACTIONS
-"""The class of a tile where several actions are equally good, as where nothing is known yet."""
 
 
 def draw_pendulum(
@@ -60,7 +56,9 @@ def draw_pendulum(
         "pendulum/ground", indexes=indexes, columns=rr.Transform3D.columns(translation=ground)
     )
     push = np.zeros((len(shown), 2), dtype=np.float32)
-    push[:, 0] = np.array(ACCELERATIONS)[trajectory.action[shown]] / 100
+    push[:, 0] = np.array(body.accelerations)[trajectory.action[shown]] / (
+        10 * body.accelerations[-1]
+    )
     recording.log(
         "pendulum/push",
         rr.Arrows2D.from_fields(colors=[[213, 94, 0]], radii=[0.004], origins=[[0, 0.022]]),
@@ -77,10 +75,10 @@ def draw_phase_plane(
     """The state in the plane of φ and φ̇, over the map of the policy."""
     shown = frames.drawn
     width, height = (parts * size for parts, size in zip(learned.owner.shape, PIXELS, strict=True))
-    limit = learned.angle_limit
+    limit, fastest = learned.angle_limit, learned.velocity_limit
     x = (np.clip(trajectory.angle[shown], -limit, limit) + limit) / (2 * limit) * width
-    velocity = np.clip(trajectory.angular_velocity[shown], -VELOCITY_LIMIT, VELOCITY_LIMIT)
-    y = (VELOCITY_LIMIT - velocity) / (2 * VELOCITY_LIMIT) * height
+    velocity = np.clip(trajectory.angular_velocity[shown], -fastest, fastest)
+    y = (fastest - velocity) / (2 * fastest) * height
     places = np.stack([x, y], axis=1).astype(np.float32)
     # A trail ends where the stretch began, the pendulum was reset, or φ came round.
     new = (np.diff(shown, prepend=shown[0]) > DRAWN_EVERY) | (
@@ -110,25 +108,30 @@ def draw_phase_plane(
     )
 
 
-def draw_learned(recording: rr.RecordingStream, frames: Frames, learned: Snapshots) -> None:
+def draw_learned(
+    recording: rr.RecordingStream, frames: Frames, learned: Snapshots, body: Pendulum
+) -> None:
     """Value and greedy policy over the grid, as they grew."""
-    names = [f"{ẍ:+.0f} m/s²" for ẍ in ACCELERATIONS]
+    names = [f"{ẍ:+.3g} m/s²" for ẍ in body.accelerations]
+    actions = len(names)
+    # The class of a tile where several actions are equally good, as where nothing is known yet.
+    undecided = len(MODULES) * actions
     modules = int(learned.owner.max()) + 1
     classes = [
         rr.AnnotationInfo(
-            id=module * ACTIONS + action,
+            id=module * actions + action,
             label=f"{MODULES[module]}: {names[action]}" if modules > 1 else names[action],
-            color=tuple(int(c * (1 - 0.25 * module)) for c in ACTION_COLOURS[action]),
+            color=tuple(int(c * (1 - 0.25 * module)) for c in _shade(body, action)),
         )
         for module in range(modules)
-        for action in range(ACTIONS)
+        for action in range(actions)
     ]
-    classes.append(rr.AnnotationInfo(id=UNDECIDED, label="undecided", color=(60, 60, 60)))
+    classes.append(rr.AnnotationInfo(id=undecided, label="undecided", color=(60, 60, 60)))
     recording.log("learned", rr.AnnotationContext(classes), static=True)
     recording.log("phase", rr.AnnotationContext(classes), static=True)
     finite = np.nan_to_num(learned.q, nan=0.0, posinf=0.0, neginf=np.finfo(np.float64).min)
     equals = (finite == finite.max(axis=-1, keepdims=True)).sum(axis=-1)
-    policy = np.where(equals > 1, UNDECIDED, finite.argmax(axis=-1) + ACTIONS * learned.owner)
+    policy = np.where(equals > 1, undecided, finite.argmax(axis=-1) + actions * learned.owner)
     value = finite.max(axis=-1)
     lowest = min(float(value.min()), -1e-9)
     shade = np.clip(np.round(255 * (1 - value / lowest)), 0, 255)
@@ -157,6 +160,15 @@ def draw_learned(recording: rr.RecordingStream, frames: Frames, learned: Snapsho
             indexes=time_columns(steps, frames),
             columns=kind.columns(buffer=images.reshape(len(images), -1)),
         )
+
+
+def _shade(body: Pendulum, action: int) -> NDArray[Any]:
+    """The colour of an action: grey for none, towards one colour to the left, another to the right."""
+    push = body.accelerations[action]
+    strongest = body.accelerations[-1] if push > 0 else -body.accelerations[0]
+    return (
+        NONE + (RIGHT if push > 0 else LEFT) * abs(push / strongest) - NONE * abs(push / strongest)
+    )
 
 
 def _picture(values: NDArray[Any]) -> NDArray[np.uint8]:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.frames import (
     SIM_TIME,
@@ -58,13 +57,13 @@ def write_recording(
     try:
         rr.send_recording_name(run, recording=recording)
         recording.send_property("run", rr.AnyValues(**_known(properties)))
-        frames = stretches(trajectory, windows, measures.first_stable_step)
+        frames = stretches(trajectory, windows, measures.first_stable_step, body.time_step)
         _about(recording, run, properties)
-        _lines(recording, frames, trajectory)
+        _lines(recording, frames, trajectory, body)
         _envelope(recording, windows, frames)
         draw_pendulum(recording, frames, trajectory, body)
         draw_phase_plane(recording, frames, trajectory, learned)
-        draw_learned(recording, frames, learned)
+        draw_learned(recording, frames, learned, body)
         _events(recording, frames, trajectory, measures)
         content = memory.drain_as_bytes()
     finally:
@@ -73,10 +72,12 @@ def write_recording(
         beside.write_bytes(content)
 
 
-def _lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:
+def _lines(
+    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, body: Pendulum
+) -> None:
     """Angle, velocity, cart, action, reward and TD error of every step of the stretches."""
     at = np.minimum(frames.steps, len(trajectory.angle) - 1)
-    accelerations = np.array(ACCELERATIONS)[trajectory.action[at]]
+    accelerations = np.array(body.accelerations)[trajectory.action[at]]
     angle = np.degrees(trajectory.angle[at])
     lines: dict[str, dict[str, NDArray[Any]]] = {
         "angle": {"φ": np.where(_jumps(angle), np.nan, angle)},
