@@ -120,7 +120,9 @@ def changed(**more):
     ],
     ids=["a seed", "a cell"],
 )  # fmt: skip
-def test_what_is_new_in_the_study_neither_sweeps_nor_judges_the_sweeps_again(study, content, trained):
+def test_what_is_new_in_the_study_neither_sweeps_nor_judges_the_sweeps_again(
+    study, content, trained
+):
     study.write(content)
     planned = study.jobs("--dry-run", *TARGETS)
     study.write(STUDY)
@@ -155,5 +157,5 @@ def test_a_plain_run_keeps_the_page_with_its_readings(study):
 def test_a_deleted_sweep_is_made_again_and_what_follows(study):
     study.sweeps[0].unlink()
     assert study.jobs("--dry-run", *TARGETS) == {
-        "sweep": 1, "readings": 1, "verdicts": 1, "report": 1,
+        "sweep": 1, "readings": 1, "verdicts": 1, "history": 1, "report": 1,
     }  # fmt: skip

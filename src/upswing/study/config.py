@@ -15,6 +15,9 @@ from upswing.study.task import AnyTask
 from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
 from upswing.study.yaml_file import read_yaml
 
+ADOPTED = "adopted"
+"""The learner that no configuration names: an agent from elsewhere, which somebody has to vouch for."""
+
 
 def _folder(text: str) -> str:
     if not text.isprintable() or set(text) & set("{}*?"):
@@ -147,6 +150,10 @@ def validated(contents: Mapping[str, Mapping[str, Any]]) -> Study:
 
 def _contradictions(study: Study, source: str) -> Iterator[str]:
     """What each experiment says that the rest of the study does not bear out."""
+    for name, one in study.architectures.items():
+        if one.learner == ADOPTED:
+            right = "an agent from elsewhere joins a study by `upswing adopt`"
+            yield problem(source, f"architectures.{name}.learner", one.learner, right)
     cells: dict[tuple[str, str, float | None], int] = {}
     for number, experiment in enumerate(study.experiments):
         place = f"experiments[{number}]"

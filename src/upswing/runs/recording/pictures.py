@@ -1,5 +1,6 @@
 """The pictures of a recording: the pendulum, the phase plane, and maps of what was learned."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -10,17 +11,20 @@ from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.runs.recording.axes import (
+    ACTION_NAMES,
+    MODULES,
+    UNDECIDED_COLOUR,
+    Grid,
+    draw_axes,
+    module_colour,
+)
 from upswing.runs.recording.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.runs.snapshots import Snapshots
 
 TRAIL = 24
 """Number of drawings whose states the phase plane shows: half a second."""
 
-PIXELS = (10, 4)
-"""The size of a tile in the maps: of φ and of φ̇."""
-
-ACTION_COLOURS = ((0, 114, 178), (221, 221, 221), (213, 94, 0))
-MODULES = ("balancing", "upswing")
 UNDECIDED = len(MODULES) * ACTIONS
 """The class of a tile where several actions are equally good, as where nothing is known yet."""
 
@@ -76,8 +80,8 @@ def draw_phase_plane(
 ) -> None:
     """The state in the plane of φ and φ̇, over the map of the policy."""
     shown = frames.drawn
-    width, height = (parts * size for parts, size in zip(learned.owner.shape, PIXELS, strict=True))
-    limit = learned.angle_limit
+    grid = grid_of(learned)
+    width, height, limit = grid.width, grid.height, grid.angle_limit
     x = (np.clip(trajectory.angle[shown], -limit, limit) + limit) / (2 * limit) * width
     velocity = np.clip(trajectory.angular_velocity[shown], -VELOCITY_LIMIT, VELOCITY_LIMIT)
     y = (VELOCITY_LIMIT - velocity) / (2 * VELOCITY_LIMIT) * height
@@ -110,34 +114,34 @@ def draw_phase_plane(
     )
 
 
-def draw_learned(recording: rr.RecordingStream, frames: Frames, learned: Snapshots) -> None:
-    """Value and greedy policy over the grid, as they grew."""
-    names = [f"{ẍ:+.0f} m/s²" for ẍ in ACCELERATIONS]
-    modules = int(learned.owner.max()) + 1
-    classes = [
-        rr.AnnotationInfo(
-            id=module * ACTIONS + action,
-            label=f"{MODULES[module]}: {names[action]}" if modules > 1 else names[action],
-            color=tuple(int(c * (1 - 0.25 * module)) for c in ACTION_COLOURS[action]),
-        )
-        for module in range(modules)
-        for action in range(ACTIONS)
-    ]
-    classes.append(rr.AnnotationInfo(id=UNDECIDED, label="undecided", color=(60, 60, 60)))
-    recording.log("learned", rr.AnnotationContext(classes), static=True)
-    recording.log("phase", rr.AnnotationContext(classes), static=True)
+def draw_learned(
+    recording: rr.RecordingStream, frames: Frames, learned: Snapshots, unit: float = 1.0
+) -> None:
+    """Value and greedy policy over the grid, as they grew, with axes and what their colours mean.
+
+    Args:
+        recording: where they go.
+        frames: the rows of the recording.
+        learned: what is shown; its values divided by ``unit`` are in rad².
+        unit: of the values (R3), in rad².
+    """
+    grid = grid_of(learned)
+    recording.log("learned", _classes(grid.modules), static=True)
+    recording.log("phase", _classes(grid.modules), static=True)
     finite = np.nan_to_num(learned.q, nan=0.0, posinf=0.0, neginf=np.finfo(np.float64).min)
     equals = (finite == finite.max(axis=-1, keepdims=True)).sum(axis=-1)
     policy = np.where(equals > 1, UNDECIDED, finite.argmax(axis=-1) + ACTIONS * learned.owner)
     value = finite.max(axis=-1)
-    lowest = min(float(value.min()), -1e-9)
-    shade = np.clip(np.round(255 * (1 - value / lowest)), 0, 255)
+    best = learned.q.max(axis=-1)
+    lowest = min(float(best[np.isfinite(best)].min(initial=0)), -1e-9)
+    shade = np.round(255 * (1 - np.clip(value, lowest, 0) / lowest))
+    draw_axes(recording, grid, lowest / unit)
     steps = np.minimum(learned.steps, frames.steps[-1])
     for entity, maps, kind in (
         ("learned/policy", policy, rr.SegmentationImage),
         ("learned/value", shade, rr.DepthImage),
     ):
-        images = np.stack([_picture(one) for one in maps])
+        images = np.stack([_picture(one, *grid.pixels) for one in maps])
         format_ = rr.components.ImageFormat(
             width=images.shape[2], height=images.shape[1], color_model="L", channel_datatype="U8"
         )
@@ -159,7 +163,28 @@ def draw_learned(recording: rr.RecordingStream, frames: Frames, learned: Snapsho
         )
 
 
-def _picture(values: NDArray[Any]) -> NDArray[np.uint8]:
-    """Values (angle parts, velocity parts) as a picture: φ to the right, φ̇ upwards."""
+def grid_of(learned: Snapshots) -> Grid:
+    """Of what the maps of a run are pictures."""
+    return Grid(learned.owner.shape, learned.angle_limit, int(learned.owner.max()) + 1)
+
+
+@cache
+def _classes(modules: int) -> rr.AnnotationContext:
+    """What the classes of the policy's map are called and how they are coloured."""
+    classes = [
+        rr.AnnotationInfo(
+            id=module * ACTIONS + action,
+            label=f"{MODULES[module]}: {name}" if modules > 1 else name,
+            color=module_colour(module, action),
+        )
+        for module in range(modules)
+        for action, name in enumerate(ACTION_NAMES)
+    ]
+    classes.append(rr.AnnotationInfo(id=UNDECIDED, label="undecided", color=UNDECIDED_COLOUR))
+    return rr.AnnotationContext(classes)
+
+
+def _picture(values: NDArray[Any], width: int, height: int) -> NDArray[np.uint8]:
+    """Values (angle parts, velocity parts), each so wide and high: φ to the right, φ̇ upwards."""
     upwards = values.T[::-1].astype(np.uint8)
-    return upwards.repeat(PIXELS[1], axis=0).repeat(PIXELS[0], axis=1)
+    return upwards.repeat(height, axis=0).repeat(width, axis=1)
