@@ -10,13 +10,19 @@ CORES ?= all
 # --logger rich: a bar for every rule in a terminal.
 SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default --logger rich
 INSTALLED := $(VENV)/.installed
-# A study, checked first: Snakemake would read what is not YAML, or surprising YAML, in words of its own.
-run = $(BIN)/upswing check "$(1)" > /dev/null && $(SNAKEMAKE) --configfile "$(1)"
+# A study (1), checked first: Snakemake would read what is not YAML, or surprising YAML, in words of its own. That
+# says what is to come, too; then its targets (2) are made, and the end says where the page is (3: where in it).
+run = results=$$($(BIN)/upswing check "$(1)" --begin) && $(SNAKEMAKE) --configfile "$(1)"$(if $(2), -- $(2)) && $(call end,$(3))
+end = $(if $(value NOTE),$(BIN)/upswing history noted "$$results" && )echo "The report is at $$results/report/index.html$(1)"
 
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
 export PYTHONUTF8 := 1
+# A note for the entry of the history, as it was given: NOTE="why this was tried".
+ifdef NOTE
+export UPSWING_NOTE := $(value NOTE)
+endif
 # A home that cannot be written: caches then lie in .cache here.
 export XDG_CACHE_HOME := $(shell d="$${XDG_CACHE_HOME:-$$HOME/.cache}"; \
 	mkdir -p "$$d" 2>/dev/null && test -w "$$d" && echo "$$d" || echo "$(CURDIR)/.cache")
@@ -46,32 +52,27 @@ $(VENV)/.locked: requirements.lock requirements-slurm.lock | writable
 .PHONY: reproduce
 reproduce: install ## Run the whole study: figures, tables, recordings, report
 	@$(call run,config/config.yaml)
-	@echo "The report is at results/report/index.html"
 
 .PHONY: slurm
 slurm: install ## Run the whole study on a Slurm cluster (see workflow/README.md)
-	@$(BIN)/upswing check config/config.yaml > /dev/null
-	@PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH="$(CURDIR)/$(VENV)/slurm" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml
-	@echo "The report is at results/report/index.html"
+	@results=$$($(BIN)/upswing check config/config.yaml --begin) && PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH="$(CURDIR)/$(VENV)/slurm" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml && $(call end)
 
 .PHONY: unlock
 unlock: install ## After a kill: let the next run begin, when no other is at work
 	@$(SNAKEMAKE) --configfile config/config.yaml --unlock
 
 .PHONY: study
-study: install ## Run another study: make study CONFIG=config/mine.yaml
+study: install ## Run another study: make study CONFIG=config/mine.yaml NOTE="why" (a note goes with every study)
 	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
 	@$(call run,$(CONFIG))
 
 .PHONY: smoke
 smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 	@$(call run,config/smoke.yaml)
-	@echo "The report is at results/smoke/report/index.html"
 
 .PHONY: readings
 readings: install ## Judge every claim under other readings too (40 minutes on 2 cores; goes on where it stopped)
-	@$(call run,config/config.yaml) -- with_readings
-	@echo "The report is at results/report/index.html#robust"
+	@$(call run,config/config.yaml,with_readings,#robust)
 
 # Two calls: a call of Snakemake has one configuration, and the page that shows the chapter is of another study.
 .PHONY: beyond
@@ -93,8 +94,8 @@ bench-growth: install ## Measure how time and size grow with seeds and steps (a 
 	@$(BIN)/python -m tests.benchmarks.growth results
 
 .PHONY: browse
-browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"
-	@$(BIN)/upswing browse $(FILTER)
+browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"; WEB=1 as a page
+	@$(BIN)/upswing browse $(if $(WEB),--web) $(FILTER)
 
 .PHONY: doctor
 doctor: install ## Check that results are whole; says what to delete where they are not
@@ -163,6 +164,14 @@ exploratory: install ## The claims on the seeds 0 to 29, which were seen before,
 readme: install ## Renew what README and documentation show of the results: verdicts, pictures, deviations
 	@$(BIN)/upswing readme results
 
+.PHONY: site
+site: install ## Write the report and its recordings as a folder for any static host, build/site
+	@$(BIN)/upswing site build/site
+
+.PHONY: notebook
+notebook: install ## Run the documentation's notebook on results, and store what it says
+	@$(BIN)/python -m tests.notebook results
+
 .PHONY: snakemake-report
 snakemake-report: install ## Snakemake's own report: every output with its rule, code and time
 	@$(SNAKEMAKE) --configfile config/config.yaml --report results/report/snakemake.html
@@ -181,6 +190,9 @@ lock: ## Renew requirements.lock from pyproject.toml
 	rm -rf .lock-venv build
 
 .PHONY: clean
-clean: ## Remove results and what Snakemake remembers of them
-	rm -rf results/* .snakemake
+clean: ## Remove results and what Snakemake remembers of them; what was found before, the history, stays
+	@# A history and its checksums are below a folder of this name; a task may be called so, too.
+	find results -mindepth 1 -not -type d \( -path '*/runs/*' -o -not -path '*/history/*' \) -delete
+	find results -mindepth 1 -type d -empty -delete
+	rm -rf .snakemake
 	git checkout --quiet -- results

@@ -122,6 +122,7 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
     if told["tiles"]:
         yield "tiles", subcommand("tiles", results, compiled=True)
     yield "verdicts", subcommand("verdicts", results, "--claims", str(claims))
+    yield "history", subcommand("history", "write", results)
     if told["changes"]:
         yield "bound", subcommand("bound", results, compiled=True)
         yield "changes", subcommand("changes", results)

@@ -103,7 +103,7 @@ def study(tmp_path_factory):
 
 def test_every_part_of_the_chapter_has_its_job(study):
     assert study.ran == {
-        "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "comparison": 3,
+        "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
         "changes": 1, "shortest": 1, "figure": 5, "viewer": 1, "report": 1,
     }  # fmt: skip
     assert study.jobs() == {}

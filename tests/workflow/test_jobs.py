@@ -22,6 +22,7 @@ STEPS = 300
 CODE_OF_RULE = {
     "tables": jobs.TABLES,
     "verdicts": jobs.VERDICTS,
+    "history": jobs.HISTORY,
     "changes": jobs.CHANGES,
     "readings": jobs.READINGS,
     "comparison": jobs.COMPARISON,
@@ -106,6 +107,7 @@ def test_every_kind_of_job_was_run(ran):
     study, sweeps, imported = ran
     rules = {job.partition(" ")[0] for job in imported}
     expected = {"study", "train", "tables", "verdicts", "figure", "comparison", "viewer", "report"}
+    expected |= {"history"}
     of_the_thesis = {"sweep", "readings", "finalists", "tiles"}
     expected |= {"bound", "changes", "shortest"} if study.search else of_the_thesis
     assert rules == expected

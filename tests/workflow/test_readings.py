@@ -157,5 +157,5 @@ def test_a_plain_run_keeps_the_page_with_its_readings(study):
 def test_a_deleted_sweep_is_made_again_and_what_follows(study):
     study.sweeps[0].unlink()
     assert study.jobs("--dry-run", *TARGETS) == {
-        "sweep": 1, "readings": 1, "verdicts": 1, "report": 1,
+        "sweep": 1, "readings": 1, "verdicts": 1, "history": 1, "report": 1,
     }  # fmt: skip

@@ -14,7 +14,7 @@ from tests.workflow.small_study import BIN, FIGURES_OF_SMALL, SMALL, Study
 from upswing.figures import FIGURES
 
 EVERYTHING = {
-    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "comparison": 8,
+    "study": 1, "train_seeds_0_to_1": 5, "tables": 1, "verdicts": 1, "history": 1, "comparison": 8,
     "figure": FIGURES_OF_SMALL, "viewer": 1, "report": 1,
 }  # fmt: skip
 
@@ -121,7 +121,7 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
                 assert len(found) == 1, f"{path.name}: {part}"
             assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 15
+    assert rules == 16
 
 
 def test_logs_and_benchmarks_are_written(study):
@@ -162,7 +162,7 @@ def test_a_threshold_judges_again_and_remakes_the_page(study):
     claims.write_text(
         claims.read_text("utf-8").replace("at_least: 0.98", "at_least: 0.97"), "utf-8"
     )
-    assert study.jobs() == {"verdicts": 1, "report": 1}
+    assert study.jobs() == {"verdicts": 1, "history": 1, "report": 1}
 
 
 def test_a_comment_among_the_claims_judges_nothing(study):

@@ -17,6 +17,7 @@ if find_spec("upswing") is None:
         ".venv/bin/snakemake"
     )
 
+from upswing.study.history_paths import ENTRIES
 from upswing.study.paths import (
     BOUND,
     CHANGES,

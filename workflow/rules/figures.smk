@@ -2,8 +2,8 @@
 
 
 rule figure:
-    # The study is given in the command and is no input: a figure depends on its own cells, and no other cell of
-    # the study draws it anew.
+    # The study is given in the command and is no input: a figure depends on its own cells and claims, and no other
+    # of the study draws it anew.
     input:
         lambda wildcards: FILES.of_figure(wildcards.figure),
     output:
@@ -21,6 +21,7 @@ rule figure:
         f"{RESULTS}/benchmarks/figure/{{figure}}.tsv"
     params:
         cells=lambda wildcards: FILES.cells_of_figure(wildcards.figure),
+        words=lambda wildcards: FILES.words_of_figure(wildcards.figure),
         code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
         "upswing figure {wildcards.figure:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

@@ -1,4 +1,5 @@
-# Recordings that compare runs, one job each, and the viewer of those that the page shows.
+# Recordings that compare runs, one job each; that of a claim judges it, by its own cells and words. And the
+# viewer of those that the page shows.
 
 
 rule comparison:
@@ -13,6 +14,7 @@ rule comparison:
     priority: 1
     params:
         cells=lambda wildcards: FILES.cells_of_comparison(wildcards.comparison),
+        words=lambda wildcards: FILES.words_of_comparison(wildcards.comparison),
         code=jobs.COMPARISON.fingerprint,
     shell:
         "upswing comparison {wildcards.comparison:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

@@ -25,6 +25,7 @@ rule tables:
     input:
         f"{RESULTS}/study.json",
         FILES.of_cells(MATRIX.cells),
+        lambda wildcards: FILES.adopted(),
     output:
         f"{RESULTS}/tables/runs.parquet",
         f"{RESULTS}/tables/cells.parquet",

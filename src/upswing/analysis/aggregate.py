@@ -6,6 +6,7 @@ from typing import Any
 import pandas as pd
 
 from upswing.analysis import statistics, survival
+from upswing.runs.adopted import with_origin
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import MEASURES, write_table
 from upswing.runs.rows import collected
@@ -21,7 +22,7 @@ def write_tables(results: Path, matrix: Matrix) -> None:
     Raises:
         BadInput: runs are missing, or are not those of the matrix; it names them.
     """
-    runs = collected(results, matrix.cells.values())
+    runs = with_origin(collected(results, matrix.cells.values()), matrix.cells)
     write_table(results / RUNS, runs)
     write_table(results / CELLS, summarise(runs))
     seal(results, "tables", [results / RUNS, results / CELLS])

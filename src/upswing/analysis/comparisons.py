@@ -117,7 +117,13 @@ def _known(runs: pd.DataFrame, measure: str) -> NDArray[Any]:
 
 def own_values(results: Results, part: Part, cells: tuple[str, ...]) -> NDArray[Any]:
     """The values whose spread is shown: of the first cell, the measure or what is counted."""
+    return by_seed(results, part, cells[0]).to_numpy() if cells else np.empty(0)
+
+
+def by_seed(results: Results, part: Part, cell: str) -> pd.Series:
+    """What a part measures or counts of the runs of a cell that it looks at, where it is known."""
     measure = part.measure or next(iter(part.where), None)
-    if not cells or measure is None:
-        return np.empty(0)
-    return _column(_among(results.counted(cells[0]), part.among), measure).dropna().to_numpy()
+    if measure is None:
+        return pd.Series(dtype="float64")
+    runs = _among(results.counted(cell), part.among)
+    return _column(runs, measure).set_axis(runs["seed"]).dropna()

@@ -1,5 +1,6 @@
 """Is a folder of results whole? Every file is read, its checksum compared, every row traced to a run."""
 
+import shlex
 from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from pathlib import Path
@@ -9,24 +10,26 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from upswing.analysis.recount import judged_by, recount
+from upswing.runs.adopted import FOLDER as ADOPTED
+from upswing.runs.adopted import Joined, joined
 from upswing.runs.files.checksums import checksum
 from upswing.runs.files.ledger import (
     RUNS as OF_RUNS,
 )
 from upswing.runs.files.ledger import Ledger, ledger_of_run, ledger_path, ledgers, read_ledger
 from upswing.runs.files.trajectory import read_metadata
-from upswing.runs.study_file import read_study
 from upswing.study.claims import Claim, canonical_claims, load_claims
 from upswing.study.errors import BadInput
 from upswing.study.fingerprint import COMPUTING_PACKAGES
+from upswing.study.history_paths import ENTRIES, HISTORY
 from upswing.study.ids import RUN_FILES, file_of
-from upswing.study.matrix import Matrix
 from upswing.study.paths import CELLS, CHECKSUMS, EVIDENCE, RUNS, STUDY, VERDICTS
 from upswing.study.spec import Spec
 
 CLAIMS = Path("config/claims.yaml")
-NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", "report/snakemake.html")
-"""What has no checksum: what a job said, what Snakemake measured or reports, runs (looked at singly)."""
+NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", ADOPTED, "report/snakemake.html")
+"""What has no checksum: what a job said, what Snakemake measured or reports, runs and which of them were
+adopted (looked at singly)."""
 
 AGAIN = "run the study again"
 
@@ -59,7 +62,7 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
     Raises:
         BadInput: the folder has no readable ``study.json``, so nobody can say what should be in it.
     """
-    matrix = Matrix(read_study(results))
+    matrix = joined(results)
     sealed = (results / CHECKSUMS).is_dir()
     findings: list[Finding] = []
     if not sealed:
@@ -77,7 +80,7 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
     files, others = _of_jobs(results, sealed)
     findings += others
     runs = sum(len(spec.seeds) for spec in matrix.cells.values())
-    notes = _versions(found)
+    notes = [*_versions(found), *_left_out(matrix)]
     if whole:
         named = {finding.path for finding in findings}
         judged, note = _claims(results, claims)
@@ -90,11 +93,26 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
     return Diagnosis(runs, len(RUN_FILES) * runs + files, findings, orphans(results, matrix), notes)
 
 
-def orphans(results: Path, matrix: Matrix) -> list[Path]:
+def orphans(results: Path, matrix: Joined) -> list[Path]:
     """The files of runs that are not, or no longer, in the study; and what an accident left behind."""
-    expected = {results / file_of(run, kind) for run in matrix.runs for kind in RUN_FILES}
+    expected = {results / file_of(run, kind) for run in _runs_to_keep(matrix) for kind in RUN_FILES}
     there = (path for path in (results / "runs").rglob("*") if path.is_file())
     return sorted(path for path in there if path not in expected)
+
+
+def _runs_to_keep(matrix: Joined) -> Iterator[str]:
+    """The runs of the study and of adopted agents, of those too that do not go with it now."""
+    yield from matrix.runs
+    for spec in matrix.left_out:
+        yield from (spec.run(seed) for seed in spec.seeds)
+
+
+def _left_out(matrix: Joined) -> list[str]:
+    return [
+        f"{spec.cell}: was adopted when the study had another task of this name, or other readings: "
+        "it is in no table; adopt it again"
+        for spec in matrix.left_out
+    ]
 
 
 def _of_run(
@@ -180,7 +198,10 @@ def _of_jobs(results: Path, sealed: bool) -> tuple[int, list[Finding]]:
     for table in (RUNS, CELLS, VERDICTS, EVIDENCE):
         if not (results / table).is_file() and table not in of_file:
             findings.append(Finding(results / table, "missing", AGAIN))
-    return len(there), findings
+    return len(there), [
+        finding._replace(remedy=_of_an_entry(results, finding.path) or finding.remedy)
+        for finding in findings
+    ]
 
 
 def _files(results: Path) -> Iterator[Path]:
@@ -196,6 +217,21 @@ def _files(results: Path) -> Iterator[Path]:
 
 def _damaged(path: Path, what: str) -> Finding:
     return Finding(path, what, f"rm '{path}'  # and {AGAIN}")
+
+
+def _of_an_entry(results: Path, file: Path) -> str | None:
+    """What to do about a file of an entry of the history, which no job makes again; None for others."""
+    place = file.relative_to(results).parts
+    if place[0] == CHECKSUMS:
+        place = place[1:]
+    if place[0] != HISTORY or len(place) < 2 or f"{HISTORY}/{place[1]}" == ENTRIES:
+        return None
+    entry = place[1].removesuffix(".json")
+    if entry.endswith(".notes"):
+        both = (results / HISTORY / f"{entry}.json", ledger_path(results, f"{HISTORY}/{entry}"))
+        return f"rm -f {shlex.join(map(str, both))}  # or put back a copy"
+    command = f"upswing history delete {entry} --yes --results '{results}'"
+    return f"{command}  # or put back a copy: no job makes an entry again"
 
 
 def _claims(results: Path, path: Path) -> tuple[Mapping[str, Claim] | None, list[str]]:
@@ -229,11 +265,11 @@ def delete_orphans(results: Path) -> list[Path]:
     """
     if not (results / STUDY).is_file():
         raise BadInput([f"{results}/{STUDY}: missing; it says which runs belong to the study"])
-    matrix = Matrix(read_study(results))
+    matrix = joined(results)
     gone = orphans(results, matrix)
     for path in gone:
         path.unlink()
-    known = {ledger_of_run(run) for run in matrix.runs}
+    known = {ledger_of_run(run) for run in _runs_to_keep(matrix)}
     for name, path in ledgers(results).items():
         if name.startswith(f"{OF_RUNS}/") and name not in known:
             path.unlink()

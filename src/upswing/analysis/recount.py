@@ -16,6 +16,7 @@ from upswing.analysis.aggregate import summarise
 from upswing.analysis.beyond_tables import OF_A_CANDIDATE, OF_A_CHANGE, OF_THE_CHOSEN
 from upswing.analysis.search import chosen
 from upswing.analysis.verdicts import judge_all
+from upswing.runs.adopted import with_origin
 from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
 from upswing.runs.files.typed_table import read_table
@@ -70,6 +71,7 @@ def recount(
         for cell in matrix.cells.values()
         for seed in cell.seeds
     )
+    runs = with_origin(runs, matrix.cells)
     there = Recounted(results, runs)
     yield from _held(RUNS, lambda: read_runs(results, list(matrix.runs)), lambda: runs)
     yield from _held(CELLS, lambda: read_cells(results, matrix.cells), lambda: summarise(runs))

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy import stats
 
 from upswing.analysis.statistics import CONFIDENCE, Estimate, no_runs, share
 
@@ -46,6 +45,8 @@ def median_time(times: Sequence[float | None], horizon: float) -> tuple[float, f
 
 def _survival(times: Sequence[float | None], horizon: float) -> tuple[Any, Any]:
     """Scipy's survival function of times that are censored at ``horizon``, and its interval."""
+    from scipy import stats  # the slowest import of all, for what few claims ask
+
     data = stats.CensoredData(
         uncensored=[time for time in times if time is not None],
         right=[horizon for time in times if time is None],

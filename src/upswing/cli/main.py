@@ -9,11 +9,19 @@ from typing import Annotated
 import typer
 
 from upswing import __version__
-from upswing.cli.commands import compare, look, maintain, run, workflow
+from upswing.cli.commands import adopt, compare, look, maintain, run, watch, workflow
 from upswing.cli.failure import said_of
 from upswing.cli.panel import Subcommands
 
-PANELS = (run.panel, look.panel, compare.panel, maintain.panel, workflow.panel)
+PANELS = (
+    run.panel,
+    adopt.panel,
+    look.panel,
+    watch.panel,
+    compare.panel,
+    maintain.panel,
+    workflow.panel,
+)
 """The groups of subcommands, in the order of the help."""
 
 

@@ -67,6 +67,13 @@ def print_table(
             print(_wrapped(" " * indent + text, indent))
 
 
+def has_room(header: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
+    """Whether these cells fit side by side, as ``print_table`` prints them."""
+    room = terminal_width()
+    widths = [max(map(columns_of, column)) for column in zip(header, *rows, strict=True)]
+    return room is None or sum(widths) + GAP * (len(widths) - 1) <= room
+
+
 def columns_of(text: str) -> int:
     """Number of columns that a text takes in a terminal."""
     return sum(

@@ -1,7 +1,8 @@
 """Figures 5–11 of the thesis and those that sum them up, drawn from our runs: one file of code each.
 
 A figure is a file of this folder that says what it shows (``FIGURE = Declaration(…)``) and draws it
-(``def draw(results) -> Drawing``). Those of ``NAMES`` are drawn of every study that has their cells; any
+(``def draw(results) -> Drawing``; those with a number in the thesis are also given the claims that name
+it, which they show decided). Those of ``NAMES`` are drawn of every study that has their cells; any
 other is drawn where a study names it under ``figures``.
 """
 
@@ -18,6 +19,7 @@ from upswing.study.paths import FIGURES as FIGURES_FOLDER
 
 if TYPE_CHECKING:
     from upswing.runs.results import Results
+    from upswing.study.claims import Claim
 
 NAMES = (
     "overview", "step-sizes", "learning-curves",
@@ -76,35 +78,55 @@ def drawable(cells: Iterable[str], changes: bool = False, asked: Iterable[str] =
     ]
 
 
-def draw(name: str, results: "Results") -> None:
+def named(name: str) -> str:
+    """The name of a figure, from its name or its number in the thesis.
+
+    Raises:
+        BadInput: there is no such figure.
+    """
+    name = f"fig{int(name):02d}" if name.isdigit() else name
+    if name not in FIGURES:
+        raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
+    return name
+
+
+def claims_of(name: str, claims: "Mapping[str, Claim]") -> "dict[str, Claim]":
+    """The claims that a figure of the thesis decides: those that name its number."""
+    number = FIGURES[name].number
+    return {key: one for key, one in claims.items() if number and one.figure == number}
+
+
+def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = None) -> None:
     """Draw a figure: ``figures/NAME.svg``, ``.png`` and its words in ``.json``.
 
     Args:
         name: the figure's name, or its number in the thesis.
         results: the folder of results, read for drawing.
+        claims: all claims; a figure of the thesis shows what decides its own. Without: of none.
 
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
     """
-    name = f"fig{int(name):02d}" if name.isdigit() else name
-    if name not in FIGURES:
-        raise BadInput([f"figure: {name}: no such figure; {near(name, FIGURES)}"])
+    name = named(name)
     from upswing.figures.panels import Drawing
     from upswing.figures.style import save
 
     declared = FIGURES[name]
-    drawing = load("figures", name).draw(results)
+    own = (claims_of(name, claims or {}),) if declared.number else ()
+    drawing = load("figures", name).draw(results, *own)
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])
     place = results.folder / FIGURES_FOLDER / name
-    save(drawing.figure, place)
+    panels = save(drawing.figure, place)
     with written(place.with_suffix(".json")) as beside:
         words = {
             "title": declared.title,
             "section": declared.section,
             "claims": declared.claims,
             "caption": drawing.caption,
+            "alt": drawing.alt or f"{declared.title}.",
             "runs": drawing.runs,
+            "panels": panels,
         }
         beside.write_text(json.dumps(words, indent=1, ensure_ascii=False) + "\n", "utf-8")
     seal(

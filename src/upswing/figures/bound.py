@@ -74,4 +74,5 @@ def draw(results: "Results") -> "Drawing":
         "towards upright whatever the velocity, and what hangs stays below; from "
         f"γ = {needed:.3f} on it swings up from there."
     )
-    return panels.Drawing(figure, caption, [])
+    alt = f"The best policy for the discounted reward swings up from hanging from γ = {needed:.3f} on."
+    return panels.Drawing(figure, caption, [], alt)

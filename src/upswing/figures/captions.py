@@ -1,16 +1,51 @@
 """Sentences that several captions share."""
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from upswing.figures.three_and_all import Shown
+
 ORDERED_BY_FALLS = (
     "The worst, the median and the best run by their number of falls (ties: falls in the last fifth, "
     "seed)"
 )
 ENSEMBLE = "thin lines are single runs, the thick line their median"
 ANGLE_HISTOGRAM = (
-    "where the pendulum was: the darker, the more of its steps at that angle at that time; 0° is "
-    "upright, ±180° hanging"
+    "where the pendulum was: the darker, the more of its steps at that angle at that time"
 )
 STANDS = "stands at the end (is upright for 90 % of its last 100,000 steps)"
 ORDERED_BY_UPRIGHT = (
     "The worst, the median and the best run by their share of upright steps, |φ| ≤ 20°, in the last "
     "fifth (ties: mean reward, seed)"
 )
+
+
+def phases_named(shown: "Shown") -> str:
+    """What the words on the picture mean; nothing where there are none."""
+    from upswing.figures.phases import COLUMNS, SHORTEST, WORDS
+
+    if not shown.phases:
+        return ""
+    meant = "; ".join(WORDS[name] for name in shown.phases)
+    least = f"{SHORTEST / COLUMNS:.0%}".replace("%", " %")
+    return f" A word on the picture says what lasts for at least {least} of the run: {meant}."
+
+
+def what_decides(shown: "Shown") -> str:
+    """What the panels below the rows show, and of which claims the study lacks cells."""
+    words = ""
+    if shown.decided:
+        names = list(dict.fromkeys(one.claim for one in shown.decided))
+        words = (
+            f" Below, what decides {_listed(names)}: every run as a dot, and at the right the estimate "
+            "with its 95 % interval. A claim holds in the shaded part, and partly up to the dashed line."
+        )
+        if any(row.beside for one in shown.decided for row in one.rows):
+            words += " Hollow dots are other step sizes, for comparison: they decide nothing."
+    if shown.lacking:
+        words += f" Of {_listed(shown.lacking)} this study has not all cells."
+    return words
+
+
+def _listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

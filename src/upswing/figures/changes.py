@@ -19,6 +19,7 @@ def draw(results: "Results") -> "Drawing":
     """A row for each cell of full control, in groups: its share of successes, its steps to stability."""
     import numpy as np
 
+    from upswing.analysis.colours import of_text
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.files.typed_table import read_table
@@ -28,7 +29,7 @@ def draw(results: "Results") -> "Drawing":
     upright = [results.task(cell).judged_by == "upright" for cell in changes["cell"]]
     table = changes[upright]
     titles = list(dict.fromkeys(table["change"]))
-    palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#56B4E9", "#777777"]
+    palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#A65628", "#3A97D3", "#777777"]
     shades = {title: palette[n % len(palette)] for n, title in enumerate(titles)}
     figure, (success, stable) = subplots(
         1, 2, figsize=(WIDTH, ROW * (len(table) + 1.4 * len(titles)) + 0.6), sharey=True
@@ -37,7 +38,7 @@ def draw(results: "Results") -> "Drawing":
     for title in titles:
         success.annotate(
             title, (0, row), xycoords=("axes fraction", "data"), va="center", weight="bold",
-            color=shades[title],
+            color=of_text(shades[title]),
         )  # fmt: skip
         row += 1.1
         for _, cell in table[table["change"] == title].iterrows():
@@ -64,7 +65,7 @@ def draw(results: "Results") -> "Drawing":
     success.set_ylim(row, -0.8)
     success.set(xlim=(-3, 103), xlabel="runs that succeed [%]")
     stable.set_xscale("log")
-    stable.set_xlabel("step of the first stable window (median)")
+    stable.set_xlabel("step of the first stable window (Kaplan–Meier median)")
     for axes in (success, stable):
         axes.grid(visible=False, axis="y")
     caption = (
@@ -72,4 +73,6 @@ def draw(results: "Results") -> "Drawing":
         "interval (Wilson). Right: when half of the runs had their first window of 5,000 steps that is "
         "90 % upright, with its 95 % interval (Kaplan–Meier); nothing where half of them never had one."
     )
-    return panels.Drawing(figure, caption, list(changes["median_run"]))
+    always = int((table["success"] == 1).sum())
+    alt = f"All runs succeed in {always} of {len(table)} cells of full control."
+    return panels.Drawing(figure, caption, list(changes["median_run"]), alt)

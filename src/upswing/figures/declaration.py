@@ -10,7 +10,8 @@ class Declaration(NamedTuple):
     section: str  # where in the thesis; empty for ours
     claims: tuple[str, ...]  # ids of the claims it bears on
     cells: tuple[str, ...] = ()  # ids of the cells it is drawn from; none: whatever the study has
-    number: int | None = None  # in the thesis
+    number: int | None = None  # in the thesis; with it, the claims that name it are drawn too
+    beside: tuple[str, ...] = ()  # cells that it shows too, where the study has them
     tables: tuple[
         str, ...
     ] = ()  # of the chapter beyond the thesis; with them it is drawn there alone

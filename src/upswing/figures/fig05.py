@@ -6,8 +6,11 @@ from upswing.figures.captions import ENSEMBLE, ORDERED_BY_FALLS
 from upswing.figures.declaration import Declaration
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
+    from upswing.study.claims import Claim
 
 CELL = "balancing/table/alpha-1"
 FIGURE = Declaration(
@@ -15,18 +18,32 @@ FIGURE = Declaration(
 )
 
 
-def draw(results: "Results") -> "Drawing":
+def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs."""
-    from upswing.figures import panels
-    from upswing.figures.success_share import frequency
+    from upswing.figures import panels, told
+    from upswing.figures.captions import what_decides
+    from upswing.figures.success_share import share
     from upswing.figures.three_and_all import Row, three_and_all
 
-    rows = [Row(CELL, "table, α = 1", 5_000), Row(CELL, "table, α = 1")]
-    figure, runs = three_and_all(results, rows)
+    shown = three_and_all(
+        results, [Row(CELL, "table, α = 1", 5_000), Row(CELL, "table, α = 1")], claims
+    )
+    found = share(results, CELL)
+    at_first = results.counted(CELL)["falls_first_5000"].sub(
+        results.counted(CELL)["falls_2500_to_5000"]
+    )
+    later, last = (
+        told.times(told.middle(results, CELL, name))
+        for name in ("falls_2500_to_5000", "falls_last_fifth")
+    )
+    still = f"{found.of - found.successes} of {found.of} tables still fall in their last fifth"
+    fifth = results.task(CELL).steps // 5
     caption = (
         "Q-learning with a table of 4 × 20 tiles in the balancing task, α = 1: the first 5,000 "
         f"steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. Right: falls of "
-        f"all {len(results.cell(CELL))} runs; {ENSEMBLE}. What to see: it soon falls less often, and "
-        f"never stops falling. {frequency(results, CELL)}"
+        f"all {len(results.cell(CELL))} runs; {ENSEMBLE}. What to see: in the median, a table falls "
+        f"{told.times(at_first.median())} in the first 2,500 steps, {later} in the next 2,500, and "
+        f"{last} in the last {fifth:,}; {still}.{what_decides(shown)}"
     )
-    return panels.Drawing(figure, caption, runs)
+    alt = f"{still}, in the median {last}."
+    return panels.Drawing(shown.figure, caption, shown.runs, alt)

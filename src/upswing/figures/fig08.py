@@ -4,10 +4,15 @@ from typing import TYPE_CHECKING
 
 from upswing.figures.captions import ANGLE_HISTOGRAM, ENSEMBLE, ORDERED_BY_UPRIGHT
 from upswing.figures.declaration import Declaration
+from upswing.study.ids import CellId
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from upswing.figures.panels import Drawing
+    from upswing.figures.three_and_all import Shown
     from upswing.runs.results import Results
+    from upswing.study.claims import Claim
 
 CELL = "full-control/table/alpha-0.001"
 CONTROLS = {
@@ -22,19 +27,39 @@ FIGURE = Declaration(
     number=8,
 )
 
+HALF = 0.5
 
-def draw(results: "Results") -> "Drawing":
+
+def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle, and the upright share of all runs beside that of the controls."""
-    from upswing.figures import panels
+    from upswing.figures import panels, told
+    from upswing.figures.captions import phases_named, what_decides
     from upswing.figures.success_share import frequency
     from upswing.figures.three_and_all import Row, three_and_all
 
-    figure, runs = three_and_all(results, [Row(CELL, "table, α = 0.001")], list(CONTROLS.items()))
+    rows = [Row(CELL, "table")]
+    shown = three_and_all(results, rows, claims, list(CONTROLS.items()))
     caption = (
         "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
-        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}. Right: the share of upright steps of all "
-        f"{len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no control and of "
-        "random actions. A dark bar near ±135° is a cart that is pushed one way for ever, which holds "
-        f"the rod there. {frequency(results, CELL)}"
+        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}.{phases_named(shown)} Right: the share of upright "
+        f"steps of all {len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no "
+        f"control and of random actions. What to see: {frequency(results, CELL)} In the whole run "
+        f"{told.stood(results, CELL)}.{_most(shown)}{what_decides(shown)}"
     )
-    return panels.Drawing(figure, caption, runs)
+    alt = f"With α = 0.001, {frequency(results, CELL)}{_most(shown)}"
+    return panels.Drawing(shown.figure, caption, shown.runs, alt)
+
+
+def _most(shown: "Shown") -> str:
+    """With which of the cells that the claims look at most runs stand, as a sentence."""
+    shares = [row for one in shown.decided for row in one.evidence if one.part.kind == "share"]
+    most = {row.cells: row for row in shares if row.estimate > HALF}
+    if not most:
+        return " In no other cell of the claims do most runs stand."
+    words = []
+    for row in most.values():
+        cell = CellId.parse(row.cells)
+        steps = shown.steps[row.cells]
+        longer = f" and {steps:,} steps" if steps != shown.steps[CELL] else ""
+        words.append(f"α = {cell.alpha}{longer} ({round(row.estimate * row.n)} of {row.n})")
+    return f" Most runs stand with {' and with '.join(words)}."

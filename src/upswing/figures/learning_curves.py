@@ -19,11 +19,13 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour
     from upswing.figures import panels
-    from upswing.figures.style import grid_of_panels
+    from upswing.figures.interaction import Curves, remember
+    from upswing.figures.style import dashes, grid_of_panels
     from upswing.figures.success_share import share
     from upswing.study.ids import CellId
 
-    figure, axes = grid_of_panels(2, (3, 2), height=2.4)
+    figure, axes = grid_of_panels(2, (1, 1), height=2.4)
+    seen: list[str] = []
     for number, judged_by in enumerate(("falls", "upright")):
         tasks = [
             spec.task.name for spec in results.cells.values() if spec.task.judged_by == judged_by
@@ -35,7 +37,7 @@ def draw(results: "Results") -> "Drawing":
         for cell in cells:
             architecture = CellId.parse(cell).architecture
             best = chosen.get(architecture)
-            if best is None or share(results, cell).successes > share(results, best).successes:
+            if best is None or share(results, cell).value > share(results, best).value:
                 chosen[architecture] = cell
         groups = {
             "best α": list(chosen.values()),
@@ -43,6 +45,7 @@ def draw(results: "Results") -> "Drawing":
         }
         for (name, shown), panel in zip(groups.items(), axes[2 * number :], strict=False):
             ends = []
+            learned = []  # where the medians of those that learn come to
             for cell in shown:
                 ensemble = results.ensemble(cell)
                 group = max(1, len(ensemble.last_step) // WINDOWS)
@@ -55,12 +58,13 @@ def draw(results: "Results") -> "Drawing":
                     sizes = np.diff(begins, append=len(ensemble.last_step))
                     values = 100 * np.add.reduceat(ensemble.upright_share, begins, axis=1) / sizes
                 last = ensemble.last_step[np.append(begins[1:], len(ensemble.last_step)) - 1]
+                remember(panel, Curves(cell, ensemble.seeds, last, values, drawn=False))
                 values = values[~ensemble.diverged]
                 if not len(values):
                     continue
                 low, middle, high = np.quantile(values, (0.25, 0.5, 0.75), axis=0)
                 shade = colour(cell)
-                panel.plot(last, middle, color=shade, linewidth=1.4)
+                panel.plot(last, middle, dashes(cell), color=shade, linewidth=1.4)
                 panel.fill_between(last, low, high, color=shade, alpha=0.12, linewidth=0)
                 words = (
                     CellId.parse(cell).label
@@ -68,6 +72,10 @@ def draw(results: "Results") -> "Drawing":
                     else CellId.parse(cell).architecture
                 )
                 ends.append((float(middle[-1]), words, shade))
+                if results.cells[cell].alpha is not None:
+                    learned.append((float(middle[-1]), words))
+            if name == "best α" and learned:
+                seen.append(f"{task}: {_ends(learned, judged_by)}")
             panel.set_visible(bool(cells))
             panel.set_title(f"{task}, {name}")
             panel.set_ylabel("falls per 1,000 steps" if judged_by == "falls" else "upright [%]")
@@ -77,10 +85,27 @@ def draw(results: "Results") -> "Drawing":
                 panel.set_ylim(bottom=0)
             if shown:
                 panel.set_xlim(0, float(last[-1]))
-            panels.steps_axis(panel)
+            panels.steps_axis(panel, 4)
             panels.label_ends(panel, ends)
+    what = "; ".join(seen)
+    see = f" What to see: where the medians on the left end. {what}." if what else ""
     caption = (
-        "Medians over the runs, with the band between the quartiles. Left: each architecture with the "
-        "step size that succeeds most often (the first, if several do). Right: all of them with α = 1."
+        "Medians over the runs, with the band between the quartiles; modular ones are dashed. Left: "
+        "each architecture with the step size that succeeds most often (the first, if several do). "
+        f"Right: all of them with α = 1.{see}"
     )
-    return panels.Drawing(figure, caption, [])
+    alt = f"Where the medians end with the best α. {what}." if what else ""
+    return panels.Drawing(figure, caption, [], alt)
+
+
+def _ends(learned: list[tuple[float, str]], judged_by: str) -> str:
+    """Where medians come to, the best first, as a sentence."""
+    from upswing.figures import told
+
+    falls = judged_by == "falls"
+    ordered = sorted(learned, key=lambda one: one[0] if falls else -one[0])
+    values = [
+        f"{words} at {told.number(round(value, 1))}{'' if falls else ' %'}"
+        for value, words in ordered
+    ]
+    return f"{', '.join(values)} {'falls per 1,000 steps' if falls else 'of steps upright'}"

@@ -1,15 +1,20 @@
 """The panels that the figures are made of: one run's angle, and all runs of a cell."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from upswing.analysis.colours import colour
+from upswing.figures.interaction import Alone, Curves, remember
+from upswing.figures.labels import angle_axis
+from upswing.figures.labels import label_ends as label_ends
+from upswing.figures.labels import steps_axis as steps_axis
+from upswing.figures.phases import Phase, longest_within, phases
+from upswing.figures.style import SMALL
 from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
 from upswing.runs.results import Ensemble, OneRun, Real
 
@@ -22,11 +27,26 @@ MANY = 40
 EVERY = 2
 """Which of the first steps are drawn: every so-many-th, and those with a fall."""
 
-LINE = 0.14
-"""Height of a label [inch]."""
+ANGLES, TIMES = 40, 125
+"""Numbers of bins of an angle histogram, over a turn (0° and 180° amid one) and over a run."""
 
-ANGLES, TIMES = 37, 125
-"""Numbers of bins of an angle histogram, over a turn (0° in the middle of one) and over a run."""
+TURN = (-90 - 180 / ANGLES, 270 - 180 / ANGLES)
+"""The ends of the axis of a whole turn [°]: hanging, 180°, is not cut."""
+
+OFF = 36
+"""How far the name of a phase stands from its angle, for a turn [°]."""
+
+IN_MOTION = 54
+"""Where what swings and spins is named [°]: below what swings, which reaches upright nowhere."""
+
+HALF_A_NAME, BESIDE = 0.09, 0.2
+"""Half the width of the longest name of a phase, and how far apart two are, as parts of a run."""
+
+ON_SHADES: Any = {"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.6}
+"""What makes a name readable on shades."""
+
+LONG = 0.15
+"""The part of a picture from which on it is said that the pendulum stands, where it can fall."""
 
 
 class Drawing(NamedTuple):
@@ -35,6 +55,7 @@ class Drawing(NamedTuple):
     figure: Figure
     caption: str
     runs: list[str]  # the single runs that it shows
+    alt: str = ""  # what came out, for who does not see it; without, the title
 
 
 def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
@@ -47,6 +68,9 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
         shown = run.trajectory[run.trajectory["step"] < steps]
         shown = shown[(shown["step"] % EVERY == 0) | shown["reset"]]
         degrees = np.degrees(shown["angle"].to_numpy(float))
+        begins = np.searchsorted(shown["step"], np.linspace(0, steps, TIMES, endpoint=False))
+        begins = np.unique(begins[begins < len(degrees)])
+        low, high = np.minimum.reduceat(degrees, begins), np.maximum.reduceat(degrees, begins)
         degrees[1:][shown["reset"].to_numpy()[:-1]] = np.nan  # no line across a reset
         axes.plot(shown["step"], degrees, color=colour(cell), linewidth=0.6)
         last = steps
@@ -54,41 +78,79 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
         first = run.windows["first_step"].to_numpy(float)
         last = int(first[-1] + run.windows["steps"].iloc[-1])
         begins = np.arange(0, len(first), 2)
-        lowest = np.minimum.reduceat(run.windows["lowest_angle"].to_numpy(float), begins)
-        highest = np.maximum.reduceat(run.windows["highest_angle"].to_numpy(float), begins)
+        low, high = (
+            np.degrees(extreme.reduceat(run.windows[name].to_numpy(float), begins))
+            for extreme, name in ((np.minimum, "lowest_angle"), (np.maximum, "highest_angle"))
+        )
         middles = np.repeat(first[begins] + run.windows["steps"].iloc[0], 2)
-        extremes = np.degrees(np.stack([lowest, highest], axis=1))
-        axes.plot(middles, extremes.ravel(), color=colour(cell), linewidth=0.6)
+        axes.plot(middles, np.stack([low, high], axis=1).ravel(), color=colour(cell), linewidth=0.6)
+    remember(axes, Alone(cell, run.seed))
     limit = run.task.angle_limit
     axes.set(ylim=(-1.08 * limit, 1.08 * limit), yticks=np.linspace(-limit, limit, 5))
-    axes.set(xlim=(0, last), ylabel="angle φ [°]", title=f"Median run (seed {run.seed})")
+    angle_axis(axes)
+    axes.set(xlim=(0, last), title=f"Median run (seed {run.seed})")
+    begin, end = longest_within(low, high)
+    if end - begin >= LONG * len(low):
+        _name(axes, "stands", (begin + end) / 2 / len(low) * last, 0.6 * limit)
     steps_axis(axes)
 
 
-def angle_histogram(axes: Axes, run: OneRun, cell: str) -> None:
+def angle_histogram(axes: Axes, run: OneRun, cell: str) -> list[Phase]:
     """Where the pendulum was, in time: the share of steps at each angle, darker for more.
 
     A line would fill the panel. The steps are those kept evenly over the run; a column's darkest shade
-    is three quarters of its steps.
+    is three quarters of its steps. What lasts is named, where it lasts longest.
+
+    Returns:
+        The phases that it names.
     """
     total = int(run.trajectory["step"].iloc[-1]) + 1
     evenly = run.trajectory[run.trajectory["step"] % max(1, total // THINNED) == 0]
-    turns = np.degrees(evenly["angle"].to_numpy(float))
+    degrees = np.degrees(evenly["angle"].to_numpy(float))
     share, _, _ = np.histogram2d(
-        (turns + 180) % 360 - 180,
+        (degrees - TURN[0]) % 360 + TURN[0],
         evenly["step"],
-        bins=(np.linspace(-180, 180, ANGLES + 1), np.linspace(0, total, TIMES + 1)),
+        bins=(np.linspace(*TURN, ANGLES + 1), np.linspace(0, total, TIMES + 1)),
     )
     share /= np.maximum(share.sum(axis=0), 1)
     shades = LinearSegmentedColormap.from_list("shades", ["white", colour(cell), "black"])
     axes.imshow(
         share, cmap=shades, vmin=0, vmax=0.75, origin="lower", aspect="auto",
-        extent=(0, total, -180, 180), interpolation="nearest",
+        extent=(0, total, *TURN), interpolation="nearest",
     )  # fmt: skip
+    remember(axes, Alone(cell, run.seed))
     axes.grid(visible=False)
-    axes.set(ylim=(-180, 180), yticks=(-180, -90, 0, 90, 180), xlim=(0, total))
-    axes.set(ylabel="angle φ [°]", title=f"Seed {run.seed}")
+    axes.set(ylim=TURN, yticks=(0, 90, 180), xlim=(0, total))
+    angle_axis(axes)
+    axes.set_title(f"Seed {run.seed}")
     steps_axis(axes)
+    found = phases(
+        degrees, evenly["angular_velocity"].to_numpy(float), evenly["step"].to_numpy(float) / total
+    )
+    named = _apart(found)
+    for phase, (when, where) in named:
+        _name(axes, phase.name, when * total, where, bbox=ON_SHADES)
+    return [phase for phase, _ in named]
+
+
+def _apart(found: Sequence[Phase]) -> list[tuple[Phase, tuple[float, float]]]:
+    """Phases with the places of their names, as parts of the run and in degrees; none over another."""
+    placed: list[tuple[Phase, tuple[float, float]]] = []
+    for phase in found:
+        when = min(max((phase.first + phase.last) / 2, HALF_A_NAME), 1 - HALF_A_NAME)
+        middle = {0.0: OFF, 180.0: 180 - OFF}.get(phase.angle, phase.angle - OFF)
+        if phase.name in ("spins", "swings"):
+            middle = IN_MOTION
+        if all(abs(when - x) > BESIDE or abs(middle - y) >= OFF for _, (x, y) in placed):
+            placed.append((phase, (when, middle)))
+    return placed
+
+
+def _name(axes: Axes, name: str, step: float, degrees: float, **more: Any) -> None:
+    """Write the name of a phase on the picture."""
+    axes.text(
+        step, degrees, name, ha="center", va="center", fontsize=SMALL, color="#333333", **more
+    )
 
 
 def falls(
@@ -101,11 +163,12 @@ def falls(
         ensembles: (cell, label, its runs) of each cell; all runs are drawn of the first.
         steps: number of first steps to draw; all without it.
     """
-    _ensemble(
-        axes, [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in ensembles], steps
-    )
+    lines = [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in ensembles]
+    ends = _ensemble(axes, lines, steps)
+    _remember(axes, ensembles, lines)
     axes.set(ylabel="falls so far", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set_ylim(bottom=0)
+    label_ends(axes, ends)
 
 
 def upright(axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]]) -> None:
@@ -118,20 +181,29 @@ def upright(axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]]) -> None:
             ensemble.upright_share[:, :whole].reshape(len(ensemble.seeds), -1, group).mean(axis=2)
         )
         lines.append((cell, label, ensemble.last_step[group - 1 : whole : group], 100 * means))
-    _ensemble(axes, lines, None)
+    ends = _ensemble(axes, lines, None)
+    _remember(axes, ensembles, lines)
     axes.set(ylabel="upright [% of steps]", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
+    label_ends(axes, ends)
 
 
-def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None) -> None:
-    """Lines of all runs of the first cell, thin, and medians of all cells, thick and labelled."""
+def _ensemble(
+    axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: int | None
+) -> list[tuple[float, str, str]]:
+    """Lines of all runs of the first cell, thin, and medians of all cells, thick.
+
+    Returns:
+        Where each median ends, its label and its colour.
+    """
     ends = []
     for number, (cell, label, last_step, values) in enumerate(lines):
         within = (
             len(last_step) if steps is None else int(np.searchsorted(last_step, steps, "right"))
         )
         every = max(1, within // POINTS)
-        x, y = last_step[:within:every], values[:, :within:every]
+        shown = slice((within - 1) % every, within, every)  # with the last one
+        x, y = last_step[shown], values[:, shown]
         if number == 0:
             axes.plot(
                 x, y.T, color=colour(cell), linewidth=0.4, alpha=0.35, rasterized=len(y) > MANY
@@ -146,7 +218,17 @@ def _ensemble(axes: Axes, lines: Sequence[tuple[str, str, Real, Real]], steps: i
         ends.append((float(median[-1]) if finite.any() else 0.0, words, colour(cell)))
     axes.set_xlim(0, steps or float(lines[0][2][-1]))
     steps_axis(axes)
-    label_ends(axes, ends)
+    return ends
+
+
+def _remember(
+    axes: Axes,
+    ensembles: Sequence[tuple[str, str, Ensemble]],
+    lines: Sequence[tuple[str, str, Real, Real]],
+) -> None:
+    """Which run each line is; those of the first cell are drawn, the others when they are pointed at."""
+    for (cell, _, ensemble), (_, _, x, y) in zip(ensembles, lines, strict=True):
+        remember(axes, Curves(cell, ensemble.seeds, x, y, drawn=cell == lines[0][0]))
 
 
 def mark_divergence(axes: Axes, x: Real, y: Real) -> None:
@@ -156,38 +238,3 @@ def mark_divergence(axes: Axes, x: Real, y: Real) -> None:
         at = known[-1] if len(known) else 0
         value = line[at] if len(known) else 0.0
         axes.plot(x[at], value, "x", color="black", markersize=4, markeredgewidth=0.9, alpha=0.6)
-
-
-def label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
-    """Name each median at its right end, moved apart where they would overlap."""
-    low, high = axes.get_ylim()
-    whole = axes.get_figure(root=True)
-    assert whole is not None  # noqa: S101
-    inches = whole.get_size_inches()[1] * axes.get_position().height
-    gap = LINE / inches * (high - low)
-    ordered = sorted(ends)
-    places: list[float] = []
-    for value, _, _ in ordered:
-        places.append(max(value, places[-1] + gap if places else value))
-    for number in reversed(range(len(places))):  # and none above the panel
-        places[number] = min(places[number], high - gap * (len(places) - 1 - number))
-    for place, (_, label, shade) in zip(places, ordered, strict=True):
-        axes.annotate(
-            label, (1.02, place), xycoords=("axes fraction", "data"), color=shade, va="center",
-            annotation_clip=False,
-        )  # fmt: skip
-
-
-def steps_axis(axes: Axes) -> None:
-    """An axis of steps, written short."""
-    axes.xaxis.set_major_formatter(FuncFormatter(_short))
-    axes.xaxis.set_major_locator(MaxNLocator(4))
-    axes.set_xlabel("step of 5 ms")
-
-
-def _short(value: float, _: int) -> str:
-    """A number of steps, written short: 500, 15k, 2.5M."""
-    for size, letter in ((1e6, "M"), (1e3, "k")):
-        if value >= size:
-            return f"{value / size:g}{letter}"
-    return f"{value:g}"

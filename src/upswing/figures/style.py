@@ -1,6 +1,7 @@
 """One visual language for all figures."""
 
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
 
@@ -9,37 +10,46 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
 from matplotlib.pyplot import subplots as subplots
 
+from upswing.figures.appearance import APPEARANCE
+from upswing.figures.appearance import GRID as GRID
+from upswing.figures.interaction import described
 from upswing.runs.files.atomic import written
+from upswing.study.ids import CellId
 
 WIDTH = 7.2
 """Width of a figure [inch]: a page's text, readable at half of it."""
 
 ROW_HEIGHT = 1.9
 
-GRID = "#DDDDDD"
+LOW, LOWEST = 0.78, 0.52
+"""Height of a low panel with its title, and what it may come to where there are many [inch]."""
 
-plt.rcParams.update(
-    {
-        "font.size": 8,
-        "axes.titlesize": 8,
-        "axes.titlelocation": "left",
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "axes.edgecolor": "#888888",
-        "axes.labelcolor": "#333333",
-        "xtick.color": "#555555",
-        "ytick.color": "#555555",
-        "axes.grid": True,
-        "grid.color": GRID,
-        "grid.linewidth": 0.5,
-        "axes.axisbelow": True,
-        "figure.constrained_layout.use": True,
-        "svg.hashsalt": "upswing",  # the same picture is the same file
-        "path.simplify_threshold": 0.5,
-    }
-)
+TALLEST = 10.3
+"""How high a figure should be at most: as a page of A4 that is as wide [inch]."""
+
+AXIS = 0.3
+"""Height of what stands below a panel [inch]."""
+
+SMALL = 7.0
+"""Size of what is written beside dots and on the picture [pt]."""
+
+MUTED = "#555555"
+"""What is there, but not to be seen first: ticks, thresholds."""
+
+plt.rcParams.update(APPEARANCE)
+
+
+def dashes(cell: str) -> str:
+    """How the line of a cell is drawn: dashed if it has modules, so that it is seen over its equal."""
+    return "-" if filled(cell) else "--"
+
+
+def filled(cell: str) -> bool:
+    """Whether a cell's points are filled: hollow if it has modules."""
+    return not CellId.parse(cell).architecture.startswith("modular")
 
 
 def grid_of_panels(
@@ -52,24 +62,47 @@ def grid_of_panels(
     return figure, [panel for row in axes for panel in row]
 
 
-def stacks_and_panels(rows: int, of: int) -> tuple[Figure, list[tuple[list[Axes], Axes]]]:
-    """A figure of ``rows``, each a stack of low panels on the left and one panel on the right."""
-    figure = plt.figure(figsize=(WIDTH, (0.78 * of + 0.3) * rows))
-    grid = figure.add_gridspec(rows, 2, width_ratios=(3, 2))
+class Stacked(NamedTuple):
+    """A figure of rows, each a stack of low panels on the left and one panel on the right."""
+
+    figure: Figure
+    rows: list[tuple[list[Axes], Axes]]
+    below: SubplotSpec | None  # room for more, over the whole width
+
+
+def stacks_and_panels(rows: int, of: int, low: float = LOW, below: float = 0.0) -> Stacked:
+    """Such a figure.
+
+    Args:
+        rows: number of rows.
+        of: number of low panels in a stack.
+        low: height of a low panel with its title [inch]; less, where the figure were too tall.
+        below: height of what is drawn below the rows [inch].
+    """
+    low = max(LOWEST, min(low, ((TALLEST - below) / rows - AXIS) / of))
+    heights = [(low * of + AXIS) * rows, *([below] if below else [])]
+    figure = plt.figure(figsize=(WIDTH, sum(heights)))
+    whole = figure.add_gridspec(len(heights), 1, height_ratios=heights)
+    grid = whole[0].subgridspec(rows, 2, width_ratios=(3, 2), hspace=0.0)
     found = []
     for row in range(rows):
-        left = grid[row, 0].subgridspec(of, 1, hspace=0.12)
+        left = grid[row, 0].subgridspec(of, 1, hspace=0.0)
         stack = [figure.add_subplot(left[number]) for number in range(of)]
         found.append((stack, figure.add_subplot(grid[row, 1])))
-    return figure, found
+    return Stacked(figure, found, whole[1] if below else None)
 
 
-def save(figure: Figure, place: Path) -> None:
-    """Write a figure as ``place``.svg and ``place``.png."""
+def save(figure: Figure, place: Path) -> list[dict[str, Any]]:
+    """Write a figure as ``place``.svg and ``place``.png; returns what the SVG's panels show.
+
+    See ``interaction.described``.
+    """
     # Lines are the more simplified, the coarser the picture; what is drawn in pixels must be fine.
     in_pixels = bool(figure.findobj(lambda artist: bool(artist.get_rasterized())))
     svg = {"metadata": {"Date": None}, **({"dpi": 200} if in_pixels else {})}
-    for ending, options in (("svg", svg), ("png", {"dpi": 200})):
+    for ending, options in (("png", {"dpi": 200}), ("svg", svg)):
         with written(place.with_suffix(f".{ending}")) as beside:
             figure.savefig(beside, format=ending, **options)
+    panels = described(figure)  # as it was drawn last, for the SVG: layouts differ a little
     plt.close(figure)
+    return panels

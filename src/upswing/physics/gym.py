@@ -1,22 +1,24 @@
 """Both tasks as Gymnasium environments, for learners from elsewhere.
 
 The pendulum, its starts, falls and rewards are those of the study, step for step of 5 ms, under the
-default readings. Gymnasium is an extra; importing this module registers the environments, and so does
-``gymnasium.make("upswing.physics.gym:upswing/FullControl-v0")`` by itself.
+default readings or others that are given. Gymnasium is an extra; importing this module registers the
+environments, and so does ``gymnasium.make("upswing.physics.gym:upswing/FullControl-v0")`` by itself.
 """
 
-from math import hypot
+from collections.abc import Mapping
 from typing import Any, SupportsFloat
 
 import numpy as np
-from numpy.typing import NDArray
-from PIL import Image, ImageDraw
+from pydantic import ValidationError
 
 from upswing.physics import tasks
-from upswing.physics.elementary import sine_and_cosine
 from upswing.physics.environment import State, move
-from upswing.physics.pendulum import Pendulum
+from upswing.physics.observation import Observation, largest_velocity, observed
+from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.physics.picture import picture
 from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.physics.window import WIDTH, Window
+from upswing.study.errors import explained
 from upswing.study.readings import Readings
 from upswing.study.task import kind_of_task
 
@@ -27,8 +29,6 @@ except ImportError:
         "upswing.physics.gym needs Gymnasium, the extra `gymnasium`: pip install -e '.[gymnasium]'"
     ) from None
 
-Observation = NDArray[np.float64]
-
 ENVIRONMENTS = {
     "upswing/Balancing-v0": "balancing",
     "upswing/FullControl-v0": "full-control",
@@ -36,22 +36,7 @@ ENVIRONMENTS = {
 """The kind of task of each environment. An episode is cut as the study's greedy evaluation is: after
 10 s, and after 20 s, which leaves time to swing up and to show that it lasts."""
 
-RENDER_MODES = ("rgb_array", "ansi")
-PICTURE = (240, 160)
-"""Width and height of a picture [pixels]; it shows 0.9 m × 0.6 m around the cart."""
-
-PIXELS_PER_METRE = PICTURE[0] / 0.9
-MARKS = 0.1
-"""Between two marks on the ground, by which one sees the cart move [m]."""
-
-
-def largest_velocity(body: Pendulum) -> float:
-    """What |φ̇| never passes [rad/s]: where friction eats the largest torque there can be (eq. 14–17).
-
-    From below it, one step leads to at most (1 − f_c/J·dt) of it plus f_c/J·dt of it.
-    """
-    push = max(ACCELERATIONS)
-    return body.mass * body.length / 2 * hypot(body.gravity, push) / body.friction
+RENDER_MODES = ("rgb_array", "human", "ansi")
 
 
 class PendulumEnvironment(gymnasium.Env[Observation, np.int64]):
@@ -62,7 +47,20 @@ class PendulumEnvironment(gymnasium.Env[Observation, np.int64]):
     ``info`` as it is. Action: an index into −10, 0, +10 m/s². Reward: −φ² [rad²] of the next state.
     ``info``: angle [rad], angular_velocity [rad/s], cart_position [m], cart_velocity [m/s].
 
-    Balancing terminates where |φ| passes 90°; full control never does.
+    Balancing falls where |φ| passes 90°; full control never does. What a fall is to a learner is the
+    reading R7. Under ``fallen``, the default, the study learns from the value of the fallen state, as if
+    the pendulum went on from there: the episode is *truncated*, and its last observation is the fallen
+    state. Under ``terminal`` nothing follows the fallen state: the episode is *terminated*. Under
+    ``reset`` the next state is the new start, and the episode goes on.
+
+    Args:
+        kind: ``balancing`` or ``full-control``.
+        render_mode: ``rgb_array``, ``human`` (a window, in real time) or ``ansi`` (a line of text).
+        readings: readings by name that are not to be the default, ``{"reset": "terminal"}`` for example.
+
+    Raises:
+        ValueError: there is no such render mode or reading.
+        NoWindow: ``human``, where no window can be opened.
     """
 
     metadata = {  # noqa: RUF012  as Gymnasium declares it
@@ -70,16 +68,24 @@ class PendulumEnvironment(gymnasium.Env[Observation, np.int64]):
         "render_fps": round(1 / Pendulum().time_step),  # a picture a step plays in real time
     }
 
-    def __init__(self, kind: str, render_mode: str | None = None) -> None:
+    def __init__(
+        self,
+        kind: str,
+        render_mode: str | None = None,
+        readings: Mapping[str, Any] | None = None,
+    ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise ValueError(f"render_mode: {render_mode!r}: must be {' or '.join(RENDER_MODES)}")
         self.render_mode = render_mode
-        self.body = Pendulum()
-        self.task = tasks.create(kind, Readings())
+        read = _readings(readings or {})
+        is_upright = read.zero_of_angle == "upright"
+        self.body = Pendulum(orientation=FROM_UPRIGHT if is_upright else FROM_HANGING)
+        self.task = tasks.create(kind, read)
         self.state = State(0.0, 0.0, 0.0, 0.0)
         limits = np.array([1.0, 1.0, largest_velocity(self.body)])
         self.observation_space = gymnasium.spaces.Box(-limits, limits, dtype=np.float64)
         self.action_space = gymnasium.spaces.Discrete(ACTIONS)
+        self._window = Window(f"upswing: {kind}") if render_mode == "human" else None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -102,7 +108,10 @@ class PendulumEnvironment(gymnasium.Env[Observation, np.int64]):
         ):
             raise ValueError(f"options: {given}: must be a start with |φ| ≤ {limit:g} rad")
         self.state = start
-        return self._observation(), self._info()
+        if self._window is not None:
+            self._window.restart()
+            self._show(self._window, 0.0)
+        return self._observation(), self.state._asdict()
 
     def step(
         self, action: np.int64
@@ -114,43 +123,44 @@ class PendulumEnvironment(gymnasium.Env[Observation, np.int64]):
         """
         if not self.action_space.contains(action):
             raise ValueError(f"action: {action!r}: must be 0, 1 or 2")
-        self.state = move(self.body, self.task, self.state, ACCELERATIONS[action])
-        reward = tasks.reward(self.state.angle)
+        before = self.state
+        self.state = move(self.body, self.task, before, ACCELERATIONS[action])
         fell = tasks.fallen(self.task, self.state.angle)
-        return self._observation(), reward, fell, False, self._info()
+        if fell and self.task.reset == tasks.RESET_START:
+            self.state = State(*tasks.start(self.task, self.np_random), 0.0, 0.0)
+        rewarded = self.state if self.task.rewards_next else before
+        terminated = fell and self.task.reset == tasks.RESET_TERMINAL
+        truncated = fell and self.task.reset == tasks.RESET_FALLEN
+        if self._window is not None:
+            self._show(self._window, self.body.time_step)
+        reward = tasks.reward(rewarded.angle)
+        return self._observation(), reward, terminated, truncated, self.state._asdict()
 
     def render(self) -> Any:
-        """A picture (height, width, 3) or a line of text, as ``render_mode`` says; None without one."""
+        """A picture (height, width, 3) or a line of text, as ``render_mode`` says; otherwise None."""
         if self.render_mode == "ansi":
             return "φ {:+.3f} rad, φ̇ {:+.3f} rad/s, x {:+.3f} m, ẋ {:+.3f} m/s".format(*self.state)
-        return _picture(self.body, self.state) if self.render_mode == "rgb_array" else None
+        return picture(self.body, self.state) if self.render_mode == "rgb_array" else None
+
+    def close(self) -> None:
+        """Close the window, if there is one."""
+        if self._window is not None:
+            self._window.close()
 
     def _observation(self) -> Observation:
-        sine, cosine = sine_and_cosine(self.state.angle)
-        return np.array([cosine, sine, self.state.angular_velocity])
+        return observed(self.state.angle, self.state.angular_velocity)
 
-    def _info(self) -> dict[str, Any]:
-        return self.state._asdict()
+    def _show(self, window: Window, passed: float) -> None:
+        if window.is_due(passed):
+            window.show(picture(self.body, self.state, WIDTH))
 
 
-def _picture(body: Pendulum, state: State) -> NDArray[np.uint8]:
-    """The pendulum on its cart, which stays in the middle while the ground passes."""
-    image = Image.new("RGB", PICTURE, "white")
-    draw = ImageDraw.Draw(image)
-    width, height = PICTURE
-    ground, middle = height * 0.6, width / 2
-    draw.line([(0, ground), (width, ground)], fill="grey")
-    first = -(state.cart_position % MARKS)
-    for mark in np.arange(first - 5 * MARKS, 6 * MARKS, MARKS):
-        at = middle + mark * PIXELS_PER_METRE
-        draw.line([(at, ground), (at, ground + 4)], fill="grey")
-    draw.rectangle([middle - 14, ground - 5, middle + 14, ground + 5], fill="black")
-    sine, cosine = sine_and_cosine(state.angle)
-    reach = body.length * PIXELS_PER_METRE
-    # M_C of eq. 16 turns φ towards where the cart accelerates: a positive φ leans to negative x.
-    tip = (middle - reach * sine, ground - reach * cosine)
-    draw.line([(middle, ground), tip], fill="firebrick", width=5)
-    return np.asarray(image).copy()
+def _readings(given: Mapping[str, Any]) -> Readings:
+    try:
+        return Readings(**given)
+    except ValidationError as error:
+        problems = explained(Readings, error, lambda _: "readings")
+        raise ValueError("; ".join(problems)) from None
 
 
 for _id, _kind in ENVIRONMENTS.items():

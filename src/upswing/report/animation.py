@@ -97,9 +97,9 @@ def drawn(panels: Sequence[Stretch]) -> str:
 
 
 _LOOK = """\
-text { font: 13px sans-serif; fill: #3b4252; text-anchor: middle }
-.title { font-weight: bold; font-size: 15px; fill: #1f2430 }
-.small { font-size: 10px }
+text { font: 14px sans-serif; fill: #3b4252; text-anchor: middle }
+.title { font-weight: bold; font-size: 17px; fill: #1f2430 }
+.small { font-size: 12.5px }
 .card { fill: #f6f7f9 }
 .ground { stroke: #8a93a5; stroke-width: 1.5 }
 .line { stroke: #8a93a5; fill: none }
@@ -108,6 +108,14 @@ text { font: 13px sans-serif; fill: #3b4252; text-anchor: middle }
 .upright { fill: #009e73; opacity: .22 }
 .angle { stroke: #0072b2; stroke-width: 1.2; fill: none }
 .now { stroke: #c0392b; stroke-width: 1.5 }
+@media (prefers-color-scheme: dark) {
+text, .cart { fill: #c9ced8 }
+.title { fill: #ececec }
+.card { fill: #22252a }
+.rod, .now { stroke: #ff8a7a }
+.upright { fill: #3ddba8; opacity: .3 }
+.angle { stroke: #7cc4f5 }
+}
 """
 
 
@@ -145,7 +153,7 @@ def _body(number: int, panel: Stretch) -> str:
     across = STRIP_LEFT + STRIP_WIDTH * np.arange(len(wrapped)) / max(len(wrapped) - 1, 1)
     right = STRIP_LEFT + STRIP_WIDTH
     axis = "".join(
-        f'<text class="small" x="{STRIP_LEFT - 17}" y="{_height(np.radians(degrees)) + 3:.1f}">'
+        f'<text class="small" x="{STRIP_LEFT - 20}" y="{_height(np.radians(degrees)) + 4:.1f}">'
         f"{f'{degrees}'.replace('-', '−')}°</text>"
         for degrees in (180, 0, -180)
     )
@@ -161,8 +169,8 @@ def _body(number: int, panel: Stretch) -> str:
         f'<path class="line" d="M{STRIP_LEFT} {STRIP_TOP}v{STRIP_HEIGHT}h{STRIP_WIDTH}"/>'
         f'{axis}<path class="angle" d="{_curve(across, wrapped)}"/>'
         f'<path class="now now{number}" d="M{right} {STRIP_TOP}v{STRIP_HEIGHT}"/>'
-        f'<text class="small" x="{middle + 10}" y="{STRIP_TOP + STRIP_HEIGHT + 13}">'
-        f"angle over 10 s; the band is upright, ± 20°</text>"
+        f'<text class="small" x="{middle + 10}" y="{STRIP_TOP + STRIP_HEIGHT + 14}">'
+        f"angle φ over 10 s; the band is upright, ±20°</text>"
     )
 
 

@@ -14,12 +14,12 @@ from upswing.study.paths import BEYOND, BOUND, CHANGES, CHOSEN
 Row = dict[str, Any]
 
 
-def chapter(results: Path) -> Row:
+def chapter(results: Path, at: str = f"../{BEYOND}/report/") -> Row:
     """The chapter of a folder: its own, or that of the folder below it; empty where there is none.
 
-    Its ``base`` is the way from the page to the chapter's own report.
+    Its ``base`` is the way from the page to the chapter's own report: ``at``, or none for its own page.
     """
-    for folder, base in ((results, ""), (results / BEYOND, f"../{BEYOND}/report/")):
+    for folder, base in ((results, ""), (results / BEYOND, at)):
         if all((folder / table).exists() for table in (CHANGES, BOUND)):
             return {
                 "own": folder == results,

@@ -1,10 +1,8 @@
 """The page: what each part of the template is given."""
 
-import json
-from collections import Counter
 from math import atan, degrees
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedError
@@ -16,30 +14,38 @@ from upswing.physics.tasks import ACCELERATIONS
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
+from upswing.report.cards import cards
 from upswing.report.chapter import chapter
+from upswing.report.citation import FILE as CITATION
+from upswing.report.citation import citation
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
 from upswing.report.exploratory import exploratory
 from upswing.report.findings import findings
-from upswing.report.pictures import data_of, picture
+from upswing.report.glossary import glossary
+from upswing.report.headline import headline
+from upswing.report.history_shown import history
+from upswing.report.interactive import embedded, endings, shown_figures
+from upswing.report.judged import counts, judged
+from upswing.report.kept import kept
+from upswing.report.pictures import data_of
 from upswing.report.readings_shown import over_readings, rows, swept
 from upswing.report.registered import registered
-from upswing.report.scale import strip
+from upswing.report.step_size_numbers import step_size_numbers
+from upswing.runs.adopted import joined
 from upswing.runs.files.atomic import written
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.provenance import provenance
-from upswing.runs.files.tables import read_cells, read_evidence, read_runs, read_verdicts
+from upswing.runs.files.tables import read_cells, read_evidence, read_runs
 from upswing.runs.files.typed_table import Columns, read_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
-from upswing.study import paths
-from upswing.study.claim_parts import WEAKEST_FIRST
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of
 from upswing.study.matrix import Matrix
 from upswing.study.paths import (
     BENCHMARK,
+    BEYOND,
     EDITS,
-    EVIDENCE,
     EVIDENCE_CSV,
     GROWTH,
     PAGE,
@@ -55,8 +61,29 @@ OF_A_SHOWN_RUN: Columns = {
     "steps_per_second": "number", "falls": "number", "falls_last_fifth": "number",
     "upright_share": "number", "above_horizontal_share": "number", "mean_reward": "number",
     "first_stable_step": "whole?", "greedy_success_share": "number", "upright_at_end": "number",
+    "diverged_at": "whole?",
 }  # fmt: skip
 """What the page shows of each run, besides which it is."""
+
+
+STYLES = ("style.css", "layout.css", "figures.css", "print.css")
+SCRIPTS = ("page.js", "contents.js", "lit.js", "pointing.js", "step_sizes.js", "enlarge.js")
+
+
+class Page(NamedTuple):
+    """The page and the tables beside it."""
+
+    html: str
+    runs: pd.DataFrame
+    evidence: pd.DataFrame
+
+    def write(self, folder: Path, page: str, runs: str, evidence: str) -> None:
+        """Write all three into a folder, each whole or not at all, under these names."""
+        for name, frame in ((runs, self.runs), (evidence, self.evidence)):
+            with written(folder / name) as beside:
+                frame.to_csv(beside, index=False)
+        with written(folder / page) as beside:
+            beside.write_text(self.html, "utf-8")
 
 
 def write_report(results: Path, templates: Path) -> None:
@@ -66,25 +93,51 @@ def write_report(results: Path, templates: Path) -> None:
         results: the folder, with its tables; figures that are missing are named in the page.
         templates: the folder of templates, styles and texts.
     """
+    made = page_of(results, templates)
+    made.write(results, PAGE, RUNS_CSV, EVIDENCE_CSV)
+    seal(results, "report", [results / name for name in (PAGE, RUNS_CSV, EVIDENCE_CSV)])
+
+
+def page_of(
+    results: Path, templates: Path, lent: bool = True, chapter_at: str = f"../{BEYOND}/report/"
+) -> Page:
+    """The page of a folder of results.
+
+    Args:
+        results: the folder, with its tables; figures that are missing are named in the page.
+        templates: the folder of templates, styles and texts.
+        lent: whether the page also links the recordings that only our server hands out.
+        chapter_at: the way from the page to the folder of the chapter's own page.
+    """
     study = read_study(results)
     environment = Environment(
         loader=FileSystemLoader(templates), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters.update(words.FILTERS, source_of=source_of)
-    matrix = Matrix(study)
+    environment.filters.update(words.FILTERS, source_of=source_of, cards=cards)
+    matrix, there = Matrix(study), joined(results, study)
     evidence = read_evidence(results)
-    verdicts = _verdicts(results, evidence)
-    cells = rows(read_cells(results, matrix.cells))
-    table = read_runs(results, list(matrix.runs), OF_A_SHOWN_RUN)
-    runs = rows(table)
+    verdicts = judged(results, evidence)
+    cells = rows(read_cells(results, there.cells))
+    table = read_runs(results, list(there.runs), OF_A_SHOWN_RUN)
+    runs, ours = rows(table), set(matrix.runs)
     sizes = sorted({len(spec.seeds) for spec in matrix.cells.values()})
+    by_name = {row["cell"]: row for row in cells}
+    found = findings(by_name, verdicts)
+    drawn_figures = shown_figures(results)
+    empirical = [row for row in verdicts if not row["check"]]
     shown = {
         "study": study,
+        "adopted": [spec.architecture for spec in there.adopted],
         "seeds_of_a_cell": f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0]),
         "solving": [row for row in cells if study.tasks[row["task"]].judged_by == "upright"],
         "animation": _animation(results),
-        "findings": findings({row["cell"]: row for row in cells}, verdicts),
+        "findings": found,
+        "headline": headline(by_name, found, len(empirical), len(ours)),
+        "glossary": glossary(templates),
+        "citation": citation(templates.parent / CITATION),
+        "lent": lent,
+        "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
         "registered": registered(results, study),
         "exploratory": exploratory(templates),
         "over": over_readings(results, templates, verdicts),
@@ -92,25 +145,28 @@ def write_report(results: Path, templates: Path) -> None:
         "held": _held(Pendulum()),
         "cells": cells,
         "greedy": _greedy(runs),
-        "cell": {row["cell"]: row for row in cells},
+        "cell": by_name,
         "runs": runs,
+        "ends": endings(table, study),
+        "interactive": embedded(drawn_figures, step_size_numbers(cells, study), study),
         "verdicts": verdicts,
-        "counts": _counts([row for row in verdicts if not row["check"]]),
+        "counts": counts(empirical),
         "checks": [row for row in verdicts if row["check"]],
-        "figures": {figure["name"]: figure for figure in _figures(results)},
+        "figures": {figure["name"]: figure for figure in drawn_figures},
         "own_figures": [name for name in study.figures if name not in figures.NAMES],
-        "beyond": _beyond(results),
+        "beyond": _beyond(results, chapter_at),
         "readings": _readings(study.readings),
         "swept": swept(results, study),
         "deviations": read_yaml(templates / "deviations.yaml")["deviations"],
+        "history": history(results),
         "costs": costs(results),
-        "totals": totals(results, sum(row["seconds"] for row in runs)),
+        "totals": totals(results, sum(row["seconds"] for row in runs if row["run"] in ours)),
         "benchmark": _optional(results / BENCHMARK, OF_A_BENCHMARK, "`make bench` makes it"),
         "edits": _optional(results / EDITS, OF_AN_EDIT, "`make bench-edits` makes it"),
         "growth": _optional(results / GROWTH, OF_GROWTH, "`make bench-growth` makes it"),
         "provenance": provenance(),
-        "style": _own(templates / "style.css"),
-        "script": _own(templates / "page.js"),
+        "style": _all(templates, STYLES),
+        "script": _all(templates, SCRIPTS),
         "drawings": {
             path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))
         },
@@ -120,12 +176,7 @@ def write_report(results: Path, templates: Path) -> None:
     except UndefinedError as error:  # a table has its columns, but not the rows that the page shows
         said = f"{results}: the tables lack what the page shows: {error.message}"
         raise BadInput([f"{said}; `upswing doctor {results}` says which is damaged"]) from None
-    for name, frame in ((RUNS_CSV, table), (EVIDENCE_CSV, evidence)):
-        with written(results / name) as beside:
-            frame.to_csv(beside, index=False)
-    with written(results / PAGE) as beside:
-        beside.write_text(page, "utf-8")
-    seal(results, "report", [results / name for name in (PAGE, RUNS_CSV, EVIDENCE_CSV)])
+    return Page(page, table, evidence)
 
 
 def _own(path: Path) -> Markup:
@@ -133,52 +184,14 @@ def _own(path: Path) -> Markup:
     return Markup(path.read_text("utf-8"))  # noqa: S704
 
 
+def _all(templates: Path, names: tuple[str, ...]) -> Markup:
+    """Several files of ours, one after the other."""
+    return Markup("\n").join(_own(templates / name) for name in names)
+
+
 def _optional(path: Path, columns: Columns, remedy: str) -> list[Row]:
     """The rows of a table that need not be there."""
     return rows(read_table(path, columns, remedy)) if path.exists() else []
-
-
-def _verdicts(results: Path, comparisons: pd.DataFrame) -> list[Row]:
-    """Each verdict with its evidence, and each comparison with its strip."""
-    evidence = rows(comparisons)
-    verdicts = rows(read_verdicts(results))
-    for row in evidence:
-        row["strip"] = strip(row)
-    for verdict in verdicts:
-        own = [row for row in evidence if row["claim"] == verdict["claim"]]
-        verdict["evidence"] = own
-        same = [
-            row for row in own
-            if (row["cells"], row["threshold"]) == (verdict["cells"], verdict["threshold"])
-        ]  # fmt: skip
-        if not same:
-            raise BadInput(
-                [
-                    f"{results / EVIDENCE}: {verdict['claim']}: has no row for its verdict; "
-                    f"`upswing verdicts {results}` makes both tables"
-                ]
-            )
-        verdict["decisive"] = same[0]
-        for row in own:
-            row["several"] = sum(other["part"] == row["part"] for other in own) > 1
-            row["many_cells"] = len(str(row["cells"]).split(" : ")) > 1
-        verdict["held"] = [
-            next(row["says"] for row in own if row["part"] == part)
-            for part in sorted({row["part"] for row in own})
-            if all(row["verdict"] == "reproduced" for row in own if row["part"] == part)
-        ]
-        verdict["figure"] = None if pd.isna(verdict["figure"]) else int(verdict["figure"])
-    return verdicts
-
-
-def _counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:
-    """Each verdict that was given, the best first, with its claims."""
-    given = Counter(row["verdict"] for row in verdicts)
-    return [
-        (word, [row["claim"] for row in verdicts if row["verdict"] == word])
-        for word in reversed(WEAKEST_FIRST)
-        if given[word]
-    ]
 
 
 def _greedy(runs: list[Row]) -> dict[str, float]:
@@ -188,20 +201,6 @@ def _greedy(runs: list[Row]) -> dict[str, float]:
     return {
         str(k): float(v) for k, v in frame.groupby(cells)["greedy_success_share"].mean().items()
     }
-
-
-def _figures(results: Path) -> list[Row]:
-    """Each figure with its words and its picture; ``missing`` where it could not be drawn."""
-    pages = []
-    for name in dict.fromkeys((*figures.NAMES, *read_study(results).figures)):
-        declared = figures.FIGURES[name]
-        page: Row = {"name": name, **declared._asdict(), "missing": True}
-        words = results / paths.figure(name, "json")
-        if words.exists():
-            drawn = picture(results / paths.figure(name, "svg"))
-            page |= {**json.loads(words.read_text("utf-8")), "picture": drawn, "missing": False}
-        pages.append(page)
-    return pages
 
 
 def _held(body: Pendulum) -> float:
@@ -215,11 +214,13 @@ def _animation(results: Path) -> str:
     return data_of(drawn(panels).encode()) if panels else ""
 
 
-def _beyond(results: Path) -> Row:
-    """The chapter beyond the thesis, with its pictures."""
-    found = chapter(results)
+def _beyond(results: Path, at: str) -> Row:
+    """The chapter beyond the thesis, with its pictures and the recordings beside its own page."""
+    found = chapter(results, at)
     if found["folder"] is not None:
-        found["figures"] = {figure["name"]: figure for figure in _figures(found["folder"])}
+        drawn_figures = shown_figures(found["folder"])
+        found["figures"] = {figure["name"]: figure for figure in drawn_figures}
+        found["kept"] = kept((), drawn_figures, ())
     return found
 
 

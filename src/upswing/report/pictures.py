@@ -1,12 +1,6 @@
 """Pictures within the page."""
 
 import base64
-from pathlib import Path
-
-
-def picture(path: Path) -> str:
-    """A picture as an address that holds all of it."""
-    return data_of(path.read_bytes())
 
 
 def data_of(svg: bytes) -> str:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from markupsafe import Markup
 
 from upswing.analysis.robustness.shipped import read_shipped
 from upswing.analysis.robustness.tables import (
@@ -14,7 +15,7 @@ from upswing.analysis.robustness.tables import (
     OF_A_SUMMARY,
     REMEDY,
 )
-from upswing.report.pictures import picture
+from upswing.report.inline_svg import inline
 from upswing.runs.files.typed_table import read_table
 from upswing.study import paths
 from upswing.study.config import Study
@@ -59,7 +60,7 @@ def swept(results: Path, study: Study) -> Row:
             for row in robust
         },
         "pictures": [
-            {"name": name, "data": picture(results / paths.figure_of_sweep(name, "svg"))}
+            {"name": name, "svg": _picture(results / paths.figure_of_sweep(name, "svg"), name)}
             for name in judged["sweep"].unique()
             if (results / paths.figure_of_sweep(name, "svg")).is_file()
         ],
@@ -70,6 +71,14 @@ def swept(results: Path, study: Study) -> Row:
         and all(getattr(study.readings, name) == selection[0][name] for name in SELECTED),
         "selected_of": len(selection),
     }
+
+
+def _picture(path: Path, sweep: str) -> Markup:
+    said = (
+        f"The verdicts of every claim under every reading of the sweep of {sweep}; the table above sums "
+        "it up."
+    )
+    return inline(path, f"readings-{sweep}", said)
 
 
 def _turning(judged: pd.DataFrame, claim: str) -> list[str]:

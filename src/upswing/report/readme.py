@@ -1,4 +1,4 @@
-"""What README and documentation show of the results: verdicts, pictures, the deviations."""
+"""What README and documentation show of the results: verdicts, words, pictures, the deviations."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,6 +10,7 @@ from upswing.analysis.robustness.shipped import write_shipped
 from upswing.analysis.robustness.tables import OF_A_SELECTION
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
+from upswing.report.glossary import as_sections, glossary, in_a_paragraph
 from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.files.typed_table import read_table
@@ -28,11 +29,15 @@ PICTURES = Path("docs/pictures")
 ANIMATION = "pendulum.svg"
 README = Path("README.md")
 PARTS = {
-    README: ("verdicts",),
+    README: ("verdicts", "words"),
     Path("docs/findings.md"): ("evidence",),
+    Path("docs/report.md"): ("glossary",),
     Path("docs/thesis.md"): ("deviations",),
 }
 """The pages with generated parts, by their place beside the README, and which parts they have."""
+
+GLOSSARY = {"words": in_a_paragraph, "glossary": as_sections}
+"""How the parts with explained words show them."""
 
 TABLE = "verdicts.csv"
 COLOURS = 64
@@ -158,5 +163,7 @@ def _part(name: str, templates: Path) -> str:
     if name == "deviations":
         deviations = read_yaml(templates / "deviations.yaml")["deviations"]
         return "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1))
+    if name in GLOSSARY:
+        return GLOSSARY[name](glossary(templates))
     table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
     return f"{counted(table)}\n\n{markdown(in_short(table) if name == 'verdicts' else table)}"

@@ -4,8 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-SHARES = ("share", "Kaplan")
-"""Methods whose estimates lie between 0 and 1 begin with one of these."""
+from upswing.analysis.strips import ends
 
 
 class Strip(NamedTuple):
@@ -25,11 +24,7 @@ def strip(row: dict[str, Any]) -> Strip | None:
     values = [row[name] for name in ("estimate", "low", "high", "holds_from", "partly_from")]
     if not all(np.isfinite(values)):
         return None
-    left, right = min(values), max(values)
-    if str(row["method"]).startswith(SHARES):
-        left, right = 0.0, 1.0
-    margin = 0.04 * (right - left) or 1.0
-    left, right = left - margin, right + margin
+    left, right = ends(values, str(row["method"]))
     placed = [round(100 * (value - left) / (right - left), 2) for value in values]
-    ends = (placed[3], 100.0) if row["at_least"] else (0.0, placed[3])
-    return Strip(*placed, *ends)
+    side = (placed[3], 100.0) if row["at_least"] else (0.0, placed[3])
+    return Strip(*placed, *side)

@@ -1,16 +1,20 @@
 """Which files a study comes to, and which of them its figures and its page are made from.
 
-Nothing here looks at the disk, but for the files that a page shows only where they are there.
+Nothing here looks at the disk, but for adopted cells, and for the files that a page shows only where
+they are there.
 """
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from upswing.figures import FIGURES, NAMES, drawable
+from upswing.figures import FIGURES, NAMES, claims_of, drawable
 from upswing.recordings.comparison_names import comparison_names
+from upswing.report.citation import FILE as CITATION
 from upswing.report.targets_of_sweeps import ASKING_FOR_READINGS, SWEPT, TargetsOfSweeps
-from upswing.study.claims import cells_of_claims
+from upswing.runs.adopted import files_of
+from upswing.study.claims import Claim, canonical_claims, cells_of_claims
+from upswing.study.history_paths import ENTRIES
 from upswing.study.ids import KNOWN_FILE, file_of
 from upswing.study.paths import (
     BEYOND,
@@ -48,8 +52,12 @@ TEMPLATES = (
 
 
 def templates(folder: Path) -> list[str]:
-    """The project's own files that the page is made from: templates, style, script, texts, drawings."""
-    return sorted(str(path) for pattern in TEMPLATES for path in folder.glob(pattern))
+    """The project's own files that the page is made from: templates, style, script, texts, drawings.
+
+    So is what says how to cite it, which stands beside their folder.
+    """
+    own = [path for pattern in TEMPLATES for path in folder.glob(pattern)]
+    return sorted(str(path) for path in (*own, *folder.parent.glob(CITATION)))
 
 
 class Targets(TargetsOfSweeps):
@@ -113,7 +121,7 @@ class Targets(TargetsOfSweeps):
         """What follows training and takes seconds: made again where nobody knows how it was made."""
         changes = self._below(CHANGES) if self.changes else []
         return [
-            *self._below(STUDY, VIEWER_PAGE),
+            *self._below(STUDY, ENTRIES, VIEWER_PAGE),
             *self.tiles,
             *self.tables,
             *self.comparisons,
@@ -144,13 +152,24 @@ class Targets(TargetsOfSweeps):
         return self._below(*(figure(name, kind) for name in self.figures for kind in kinds))
 
     def of_figure(self, name: str) -> list[str]:
-        """What a figure is drawn from: its own cells, or whatever the study has."""
+        """What a figure is drawn from: its own cells and those of its claims, or whatever there is."""
         runs = self.of_cells(self.cells_of_figure(name))
-        return [*runs, *self._below(*FIGURES[name].tables)]
+        adopted = [] if FIGURES[name].cells else self.adopted()
+        tiles = self.tiles if _asks_for_tiles(claims_of(name, self.claims)) else []
+        return [*runs, *adopted, *tiles, *self._below(*FIGURES[name].tables)]
 
     def cells_of_figure(self, name: str) -> list[str]:
-        """Its own cells, or all cells in the order of the study."""
-        return list(FIGURES[name].cells or self.matrix.cells)
+        """Its own cells with those of its claims that the study has, or all in the study's order."""
+        declared = FIGURES[name]
+        if not declared.cells:
+            return list(self.matrix.cells)
+        of_claims = (cell for _, cell in cells_of_claims(claims_of(name, self.claims)))
+        shown = dict.fromkeys((*declared.cells, *declared.beside, *of_claims))
+        return [cell for cell in shown if cell in self.matrix.cells]
+
+    def words_of_figure(self, name: str) -> str:
+        """By what a figure judges: its claims, and readings that they ask for."""
+        return self._words(claims_of(name, self.claims))
 
     @cached_property
     def judged_cells(self) -> list[str]:
@@ -160,14 +179,44 @@ class Targets(TargetsOfSweeps):
 
     def of_comparison(self, name: str) -> list[str]:
         """What a recording that compares runs is made from."""
-        return self.of_cells(self.cells_of_comparison(name))
+        claim = self._claim_of(name)
+        asks = claim is not None and _asks_for_tiles({name: claim})
+        adopted = self.adopted(name.partition("-")[2]) if claim is None else []
+        return [
+            *self.of_cells(self.cells_of_comparison(name)),
+            *adopted,
+            *(self.tiles if asks else []),
+        ]
+
+    def adopted(self, task: str = "") -> list[str]:
+        """The files that say which agents from elsewhere were adopted, into all tasks or one."""
+        files = files_of(Path(self.study.results))
+        return [str(path) for path in files if task in ("", path.parent.name)]
 
     def cells_of_comparison(self, name: str) -> list[str]:
-        """The cells of a task, or that of a claim, by the name of their recording."""
-        what, _, of = name.partition("-")
-        if what == "claim":
-            return [str(self.claims[of].cell)]
+        """The cells of a task, or those that a claim names, by the name of their recording."""
+        of = name.partition("-")[2]
+        if (claim := self._claim_of(name)) is not None:
+            named = dict.fromkeys(cell for _, cell in cells_of_claims({of: claim}))
+            return [cell for cell in named if cell in self.matrix.cells]
         return [cell for cell, spec in self.matrix.cells.items() if spec.task.name == of]
+
+    def words_of_comparison(self, name: str) -> str:
+        """By what a recording of a claim judges: the claim itself, and readings that it asks for."""
+        claim = self._claim_of(name)
+        return self._words({} if claim is None else {name.partition("-")[2]: claim})
+
+    def _words(self, claims: Mapping[str, Claim]) -> str:
+        """Claims, and the readings under which their parts are asked; nothing without any claim."""
+        if not claims:
+            return ""
+        asked = {key for claim in claims.values() for part in claim.parts for key in part.only_if}
+        return f"{canonical_claims(claims)} {self.study.readings.model_dump_json(include=asked)}"
+
+    def _claim_of(self, name: str) -> Claim | None:
+        """The claim of a recording that compares runs; None for one of a task."""
+        what, _, of = name.partition("-")
+        return self.claims[of] if what == "claim" else None
 
     def of_cells(self, cells: Iterable[str]) -> list[str]:
         """A file of each job of these cells: it stands for all of the job's, written together."""
@@ -193,7 +242,7 @@ class Targets(TargetsOfSweeps):
             p for p in self._below(*SWEPT) if (coming and p in self.readings) or Path(p).exists()
         ]
         return [
-            *self._below(STUDY),
+            *self._below(STUDY, ENTRIES),
             *self.tables,
             *self.pictures("svg", "json"),
             *swept,
@@ -215,3 +264,10 @@ class Targets(TargetsOfSweeps):
         return self._below(
             *sorted(f"{base}{file}" for base in ("", f"{BEYOND}/") for file in CHAPTER)
         )
+
+
+def _asks_for_tiles(claims: Mapping[str, Claim]) -> bool:
+    """Whether one of the claims is about what a table can represent."""
+    return any(
+        part.kind == "share_represented" for claim in claims.values() for part in claim.parts
+    )

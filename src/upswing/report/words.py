@@ -1,13 +1,18 @@
 """How numbers and names are written in the page."""
 
+import re
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from markupsafe import Markup
 
 from upswing.study.claim_parts import words_of
 from upswing.study.ids import recording_id, run_of
 from upswing.study.names import alpha_text
+
+Row = dict[str, Any]
 
 UNKNOWN = "–"
 
@@ -23,15 +28,15 @@ def percent(value: float | None) -> str:
     return UNKNOWN if value is None or pd.isna(value) else f"{100 * value:.1f} %"
 
 
-def spread(row: dict[str, Any], measure: str, digits: int = 0, factor: float = 1) -> str:
-    """The median of a measure, and its 5th to 95th percentile over runs."""
+def spread(row: Row, measure: str, digits: int = 0, factor: float = 1) -> Markup:
+    """The median of a measure, and below it its 5th to 95th percentile over runs."""
     middle, low, high = (
         number(factor * row[f"{measure}_{part}"], digits) for part in ("median", "p05", "p95")
     )
-    return f"{middle} ({low} … {high})"
+    return Markup('{} <span class="spread">{} to {}</span>').format(middle, low, high)
 
 
-def interval(row: dict[str, Any]) -> str:
+def interval(row: Row) -> str:
     """An estimate and its interval: ``0.197 [0.158, 0.238]``."""
     return f"{number(row['estimate'], 3)} [{number(row['low'], 3)}, {number(row['high'], 3)}]"
 
@@ -41,7 +46,7 @@ def alpha(value: float | None) -> str:
     return UNKNOWN if value is None or pd.isna(value) else alpha_text(value)
 
 
-def verdict(row: dict[str, Any]) -> str:
+def verdict(row: Row) -> str:
     """A verdict as it is shown."""
     return words_of(row["verdict"], row["could_be_better"])
 
@@ -51,11 +56,46 @@ def recording(run: str) -> str:
     return recording_id(run_of(run))
 
 
-def over_readings(row: dict[str, Any]) -> str:
+def capital(text: str) -> str:
+    """A text that begins like a sentence."""
+    return text[:1].upper() + text[1:]
+
+
+OF_WHICH = re.compile(r"of (.+), those that (.+)")
+
+
+def measured(row: Row) -> str:
+    """What an estimate is of, as a sentence begins: ``Share of tables that stand at the end``.
+
+    Claims say what is counted, and after a semicolon which part of the claim it is about.
+    """
+    counted, _, part = str(row["says"] if "says" in row else row["measure"]).partition("; ")
+    if str(row["method"]).startswith(("share", "P(X > Y)")):
+        of = OF_WHICH.fullmatch(counted)
+        counted = f"of {of[1]}, the share of those that {of[2]}" if of else f"share of {counted}"
+    return capital(counted) + (f" (“{part}”)" if part else "")
+
+
+def groups(rows: list[Row], *names: str) -> list[tuple[tuple[Any, ...], list[Row]]]:
+    """Rows in their order, parted where one of these columns changes: its values, and its rows."""
+    by = groupby(rows, lambda row: tuple(row[name] for name in names))
+    return [(values, list(own)) for values, own in by]
+
+
+def over_readings(row: Row) -> str:
     """How a claim does over readings, in a few words; a dash where they have not been asked."""
     if pd.isna(row["weighted_share"]):
         return UNKNOWN
     return f"{row['grade']} ({number(row['weighted_share'], 2)})"
+
+
+UNITS = {"share_contracting": "problems", "share_represented": "starts"}
+"""What an estimate is of, where it is not of runs; by what is measured."""
+
+
+def unit(row: Row) -> str:
+    """What a row of evidence counts: runs, or starts, or problems."""
+    return UNITS.get(str(row["measure"]), "runs")
 
 
 FILTERS = {
@@ -69,5 +109,8 @@ FILTERS = {
         verdict,
         recording,
         over_readings,
+        unit,
+        measured,
+        groups,
     )
 }

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from upswing.runs.adopted import joined
 from upswing.runs.files.tables import read_runs
 from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
 from upswing.runs.files.typed_table import read_table
@@ -17,7 +18,6 @@ from upswing.runs.study_file import read_study
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.ids import cell_of, file_of
-from upswing.study.matrix import Matrix
 from upswing.study.paths import RUNS, TILES
 from upswing.study.spec import Spec
 from upswing.study.task import NamedTask
@@ -74,14 +74,15 @@ class Results:
 
     @cached_property
     def cells(self) -> Mapping[str, Spec]:
-        """The cells of the study by their ids."""
-        return Matrix(self.study).cells
+        """The cells of the study by their ids, and behind them those that were adopted."""
+        return joined(self.folder, self.study).cells
 
     @cached_property
     def runs(self) -> pd.DataFrame:
         """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""
         path, cells = self.folder / RUNS, self.cells
-        frame = read_runs(self.folder, set(Matrix(self.study).runs))
+        known = {spec.run(seed) for spec in cells.values() for seed in spec.seeds}
+        frame = read_runs(self.folder, known)
         frame["cell"] = frame["run"].map(cell_of)
         there = frame.groupby("cell")["seed"].agg(set).to_dict()
         if incomplete := [

@@ -16,6 +16,9 @@ from upswing.study.readings import Readings
 from upswing.study.task import AnyTask
 from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
 
+ADOPTED = "adopted"
+"""The learner that no configuration names: an agent from elsewhere, which somebody has to vouch for."""
+
 
 def _folder(text: str) -> str:
     if not text.isprintable() or set(text) & set("{}*?"):
@@ -176,6 +179,10 @@ def _places(content: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 def _contradictions(study: Study, source: str) -> Iterator[str]:
     """What each experiment says that the rest of the study does not bear out."""
+    for name, one in study.architectures.items():
+        if one.learner == ADOPTED:
+            right = "an agent from elsewhere joins a study by `upswing adopt`"
+            yield problem(source, f"architectures.{name}.learner", one.learner, right)
     cells: dict[tuple[str, str, float | None], int] = {}
     for number, experiment in enumerate(study.experiments):
         place = f"experiments[{number}]"

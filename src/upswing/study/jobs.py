@@ -49,7 +49,7 @@ def tiles() -> Code:
 
 def figure(name: str) -> Code:
     """The code that draws a figure."""
-    return Code(("upswing.figures", module_of("figures", name)), ("matplotlib",))
+    return Code(("upswing.figures", module_of("figures", name)), ("matplotlib", "scipy"))
 
 
 def page(figures: Iterable[str]) -> Code:
@@ -57,12 +57,13 @@ def page(figures: Iterable[str]) -> Code:
     return Code(("upswing.report.page", *(module_of("figures", name) for name in figures)), ())
 
 
-TABLES = Code(("upswing.analysis.aggregate", "upswing.runs.study_file"), ())
+TABLES = Code(("upswing.analysis.aggregate", "upswing.runs.adopted"), ())
 VERDICTS = Code(("upswing.analysis.verdicts", "upswing.analysis.robustness.shipped"), ("scipy",))
+HISTORY = Code(("upswing.analysis.history.write",), ())
 CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
     ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
 )
 FINALISTS = Code(("upswing.analysis.robustness.selection", "upswing.runs.study_file"), ())
-COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk",))
+COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk", "scipy"))
 VIEWER = Code(("upswing.recordings.viewer",), ("rerun-sdk",))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from upswing.study.architecture import ARCHITECTURES
-from upswing.study.config import Study
+from upswing.study.config import ADOPTED, Study
 from upswing.study.declared import Family, own_options
 from upswing.study.loading import parts
 from upswing.study.task import TASKS
@@ -21,6 +21,9 @@ def schema() -> dict[str, Any]:
         # Keys that a condition below allows are known too.
         del definition["additionalProperties"]
         definition["unevaluatedProperties"] = False
+        for key in family.choices:
+            known = definition["properties"][key]
+            known["enum"] = [part for part in known["enum"] if part != ADOPTED]
         conditions = [_condition(family, *option) for option in _options(family)]
         if conditions:
             definition["allOf"] = conditions
@@ -37,7 +40,7 @@ def sections_of_options() -> Iterator[tuple[str, dict[str, Any]]]:
 def _options(family: Family[Any]) -> Iterator[tuple[str, str, dict[str, Any]]]:
     """The choosing key, the part's name and the schema of its own options, of each that has any."""
     for key, kind in family.choices.items():
-        for part in parts(kind):
+        for part in (part for part in parts(kind) if part != ADOPTED):
             model = family.options(key, part)
             own = own_options(model, family.base)
             if own:

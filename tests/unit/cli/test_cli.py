@@ -6,6 +6,7 @@ import shlex
 import subprocess
 
 import pytest
+import yaml
 
 from tests.helpers import make_spec
 from tests.paths import ROOT
@@ -110,6 +111,33 @@ def test_check_says_what_a_study_comes_to(capsys):
     assert f"{len(cells)} cells, {2 * len(cells)} runs" in capsys.readouterr().out
 
 
+def test_check_says_what_is_there_and_how_long_the_rest_takes(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "study.yaml"
+    content = {
+        "results": "mine", "seeds": 2, "tasks": {"balancing": {"kind": "balancing", "steps": 300}},
+        "architectures": {"table": {"learner": "table"}},
+        "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [1, 0.5]}],
+    }  # fmt: skip
+    path.write_text(yaml.safe_dump(content), "utf-8")
+    assert main(["check", str(path)]) == 0
+    *_, last = capsys.readouterr().out.splitlines()
+    assert last.startswith("mine: none is there, 4 are to be trained: about ")
+    assert last.endswith("by what such jobs usually take; the runs take about 1 MB")
+    assert main(["check", str(path), "--begin"]) == 0
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("mine\n", f"{last}\n")
+    spec = Matrix(load(path)).cells["balancing/table/alpha-1"]
+    assert main(["train", spec.canonical(), "--results", "mine"]) == 0
+    capsys.readouterr()
+    assert main(["check", str(path)]) == 0
+    assert "mine: 2 of 4 runs are there, 2 are to be trained: about" in capsys.readouterr().out
+    path.write_text(yaml.safe_dump({**content, "epsilon": 0.02}), "utf-8")
+    assert main(["check", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert "0 of 4 runs are there, 4 are to be trained, 2 of them anew, for the conf" in said
+
+
 def test_nobody_reads_to_the_end():
     """As in ``upswing keys | head -1``: no traceback, and nothing about a broken pipe."""
     command = [UPSWING, "keys"]
@@ -120,10 +148,17 @@ def test_nobody_reads_to_the_end():
 
 
 def jobs():
-    return {
-        command.name: command
+    """The subcommands that are jobs, by name; of a group, such as ``history``, the group's name."""
+    named = [(command.name, command) for panel in PANELS for command in panel.registered_commands]
+    named += [
+        (group.name, command)
         for panel in PANELS
-        for command in panel.registered_commands
+        for group in panel.registered_groups
+        for command in group.typer_instance.registered_commands
+    ]
+    return {
+        name: command
+        for name, command in named
         if command.cls is not None and issubclass(command.cls, Job)
     }
 

@@ -14,7 +14,11 @@ from upswing.cli.main import PANELS, main
 from upswing.figures import NAMES
 
 TITLES = ["Run", "Look", "Compare", "Maintain", "Called by the workflow"]
-SUBCOMMANDS = [command.name for panel in PANELS for command in panel.registered_commands]
+SUBCOMMANDS = [
+    command.name
+    for panel in PANELS
+    for command in (*panel.registered_commands, *panel.registered_groups)
+]
 WITHOUT_DETECTION = {"_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
 
 

@@ -43,7 +43,7 @@ def test_help_needs_the_command_line_and_nothing_else(words):
     assert ours(names) == set()
 
 
-@pytest.mark.parametrize("name", ["verdicts", "train", "screenshots"])
+@pytest.mark.parametrize("name", ["verdicts", "train", "screenshots", "history", "compare"])
 def test_the_help_of_a_subcommand_needs_nothing_that_it_runs(name):
     code, names = imported(name, "--help")
     assert code == 0
@@ -72,8 +72,21 @@ def test_to_keep_a_study_needs_what_reads_a_configuration(tmp_path):
     assert {name.split(".")[1] for name in ours(names)} == {"study", "runs"}
 
 
-@pytest.mark.parametrize("words", [["check", "config/smoke.yaml"], ["schema"], ["keys"]])
-def test_to_check_or_describe_a_configuration_needs_no_results(words):
+def test_to_check_a_configuration_and_what_is_there_of_it_needs_what_reads_both():
+    code, names = imported("check", "config/smoke.yaml")
+    assert code == 0
+    assert names & HEAVY == set()
+    assert {name.split(".")[1] for name in ours(names)} == {"study", "runs"}
+
+
+def test_to_list_a_history_needs_no_table(tmp_path):
+    code, names = imported("history", "--results", str(tmp_path))
+    assert code == 0
+    assert names & (HEAVY | {"numpy"}) == set()
+
+
+@pytest.mark.parametrize("words", [["schema"], ["keys"]])
+def test_to_describe_a_configuration_needs_no_results(words):
     code, names = imported(*words)
     assert code == 0
     assert names & HEAVY == set()

@@ -7,10 +7,12 @@ import pandas as pd
 import pytest
 
 from tests.unit.cli.terminal import ANSI, BOXES, columns_of, in_pipe, in_terminal
-from upswing.analysis.compare import Comparison
+from upswing.analysis.compare import Comparison, Estimate, OfACell, OfAPart
 from upswing.analysis.doctor import Diagnosis, Finding
+from upswing.analysis.history.configuration import Difference
 from upswing.cli.shown.beyond import print_changes, print_chosen
-from upswing.cli.shown.folders import print_comparison, print_diagnosis
+from upswing.cli.shown.compare import print_comparison
+from upswing.cli.shown.folders import print_diagnosis
 from upswing.cli.shown.readings import print_robustness
 from upswing.cli.terminal import print_table, say
 from upswing.study.claims import load_claims
@@ -162,8 +164,20 @@ def test_readings_say_under_how_many_a_claim_holds(room, capsys):
 
 def test_a_comparison_and_a_diagnosis_are_wrapped_in_a_terminal_only(room, capsys):
     runs = [f"{LONG}/seed-{seed}" for seed in range(12)]
-    parted = ("C4", f"part 1, {LONG} : balancing/random/alpha-none", 0.456, 0.789)
-    print_comparison(Comparison([("C1", "partly", "reproduced")], [parted], runs, [], runs[:1], 30))
+    values = (Estimate(0.456, 0.4, 0.5), Estimate(0.789, 0.7, 0.8))
+    comparison = Comparison(
+        configuration=[Difference("epsilon", ("0.01", "0.02"))],
+        cells=[OfACell(LONG, "upright share", values)],
+        same_cells=3,
+        partial_cells=[(LONG, (False, True))],
+        cells_known=True,
+        verdicts=[("C1", ("partly", "reproduced"))],
+        estimates=[OfAPart("C4", f"part 1, {LONG} : balancing/random/alpha-none", values)],
+        changed_runs=runs,
+        common_runs=30,
+        partial_runs={(False, True): runs[:1]},
+    )
+    print_comparison(comparison, ["@1", "results"], ["@1 (20261126-062427-3fa2c1)", "the results"])
     command = f"rm 'results/{LONG}/seed-0.trajectory.parquet'  # and run the study again"
     finding = Finding(
         Path(f"results/{LONG}/seed-0.trajectory.parquet"), "is not what was written", command
@@ -172,7 +186,16 @@ def test_a_comparison_and_a_diagnosis_are_wrapped_in_a_terminal_only(room, capsy
     said = capsys.readouterr().out
     assert command in said  # to be copied, however wide the terminal
     assert fits(said.replace(command, ""), room)
-    for text in ("C1: partly → reproduced", "0.456 → 0.789", "12 of 30 runs", "… and 2 more"):
+    for text in (
+        "epsilon: 0.01 → 0.02",
+        "0.456 [0.4, 0.5]",
+        "apart",
+        "C1: partly → reproduced",
+        "0.456 → 0.789",
+        "12 of 30 runs",
+        "… and 2 more",
+    ):
         assert text in " ".join(said.split())
     if room is None:
-        assert len(said.splitlines()) == 1 + 1 + 1 + 11 + 2 + 2 + 2 + 1 + 1
+        of_cells = 2 + 1 + 2 + 1
+        assert len(said.splitlines()) == 2 + 1 + of_cells + 1 + 1 + 1 + 11 + 2 + 2 + 2 + 1 + 1

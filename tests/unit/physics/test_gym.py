@@ -3,15 +3,21 @@
 import subprocess
 import sys
 import warnings
+from time import monotonic
 
 import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
+from PIL import Image
 
 from tests.helpers import make_spec, run
 from upswing.physics import gym as environments
-from upswing.physics import tasks
+from upswing.physics import tasks, window
+from upswing.physics.environment import State
+from upswing.physics.pendulum import Pendulum
+from upswing.physics.picture import picture
+from upswing.physics.window import NoWindow
 from upswing.runs.simulation import streams
 from upswing.study.readings import Readings
 
@@ -24,32 +30,51 @@ def make(kind, **options):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("architecture", ["random", "table"])
-def test_its_steps_are_those_of_the_loop_bit_for_bit(kind, architecture):
-    trajectory, _ = run(make_spec(kind, architecture, 0.5, steps=3_000), seed=1000)
-    env = make(kind).unwrapped
-    _, env.np_random, *_ = streams(
-        1000
-    )  # so its starts are those of the run, the first and the later
+@pytest.mark.parametrize(
+    "readings",
+    [
+        {},
+        {"reset": "terminal"},
+        {"reset": "reset"},
+        {"reward_state": "current", "start_velocity": "random"},
+        {"zero_of_angle": "hanging", "wrap": "unbounded"},
+    ],
+    ids=str,
+)
+def test_its_steps_are_those_of_the_loop_bit_for_bit(kind, architecture, readings):
+    steps = 3_000 if not readings else 1_000
+    spec = make_spec(kind, architecture, 0.5, steps=steps, **readings)
+    trajectory, _ = run(spec, seed=1000)
+    env = make(kind, readings=readings).unwrapped
+    # so its starts are those of the run, the first and the later
+    _, env.np_random, *_ = streams(1000)
     _, info = env.reset()
-    for t in range(3_000):
+    how = readings.get("reset", "fallen")
+    for t in range(steps):
         for name, value in info.items():
             assert np.float32(value) == getattr(trajectory, name)[t], (name, t)
-        _, reward, terminated, truncated, info = env.step(np.int64(trajectory.action[t]))
+        observation, reward, terminated, truncated, info = env.step(np.int64(trajectory.action[t]))
         assert np.float32(reward) == trajectory.reward[t]
-        assert terminated == trajectory.reset[t]
-        assert not truncated
-        if terminated:
+        fell = bool(trajectory.reset[t])
+        # R7: where the study bootstraps from the fallen state, the episode is cut and not ended.
+        assert terminated == (fell and how == "terminal")
+        assert truncated == (fell and how == "fallen")
+        if terminated or truncated:
+            assert observation[0] < 0  # what is seen last is the fallen state, below the horizontal
             _, info = env.reset()
     # What was compared had falls, and turned over at the bottom.
-    assert trajectory.reset.sum() > 3 or kind == "full-control"
-    assert (np.abs(np.diff(trajectory.angle)) > 6).any() or kind == "balancing"
+    assert trajectory.reset.sum() > 3 or kind == "full-control" or "wrap" in readings
+    assert (np.abs(np.diff(trajectory.angle)) > 6).any() or kind == "balancing" or readings
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_gymnasium_has_nothing_to_say_against_it(kind):
+def test_gymnasium_has_nothing_to_say_against_it(kind, monkeypatch):
+    monkeypatch.setattr(window, "_with_windows", lambda: ["agg"])  # it opens a window too
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(make(kind).unwrapped)
+        for how in ("terminal", "reset"):
+            check_env(make(kind, readings={"reset": how}, render_mode="rgb_array").unwrapped)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -72,8 +97,8 @@ def test_the_state_can_be_had_from_the_observation(kind):
         cosine, sine, velocity = observation
         assert np.arctan2(sine, cosine) == pytest.approx(info["angle"], abs=1e-14)
         assert velocity == info["angular_velocity"]
-        observation, _, terminated, _, info = env.step(env.action_space.sample())
-        if terminated:
+        observation, _, _, truncated, info = env.step(env.action_space.sample())
+        if truncated:
             observation, info = env.reset()
 
 
@@ -128,6 +153,92 @@ def test_pictures_show_where_the_pendulum_is():
     assert "φ +0.250 rad" in env.render()
     with pytest.raises(ValueError, match="render_mode"):
         environments.PendulumEnvironment("balancing", "video")
+    with pytest.raises(
+        ValueError, match="readings: reset: \"never\": must be 'fallen', 'terminal'"
+    ):
+        make("balancing", readings={"reset": "never"})
+
+
+def test_a_large_picture_is_the_small_one_in_large():
+    body, state = Pendulum(), State(0.7, 0.0, 0.034, 0.0)
+    small, large = (picture(body, state, width).astype(int) for width in (240, 720))
+    assert small.shape == (160, 240, 3)
+    assert large.shape == (480, 720, 3)
+    again = np.asarray(Image.fromarray(large.astype(np.uint8)).resize((240, 160), Image.BOX))
+    assert np.abs(again.astype(int) - small).mean() < 3
+
+
+def test_the_ground_passes_to_the_left_where_the_cart_goes_to_the_right():
+    def marks(cart_position):
+        row = picture(Pendulum(), State(0.0, 0.0, cart_position, 0.0))[98]
+        dark = np.flatnonzero((row < 200).all(axis=1))
+        return dark[np.abs(dark - 120) > 16]  # without the cart itself
+
+    here, there = marks(0.02), marks(0.03)
+    shift = 0.01 * 240 / 0.9
+    assert len(here) == len(there) == 8
+    assert np.abs(here - there - shift).max() <= 1
+    assert np.abs(np.delete(np.diff(here), 3) - 0.1 * 240 / 0.9).max() <= 1
+
+
+@pytest.mark.parametrize("mode", ["sync", "async"])
+def test_several_at_once_are_the_same_as_one_after_the_other(mode):
+    name = KINDS["balancing"]
+    many = gymnasium.make_vec(name, num_envs=2, vectorization_mode=mode)
+    ones = [make("balancing"), make("balancing")]
+    try:
+        observations, _ = many.reset(seed=5)
+        single = [env.reset(seed=5 + number)[0] for number, env in enumerate(ones)]
+        assert (observations == single).all()
+        for t in range(150):
+            actions = np.array([(t // 5) % 3, 2 * (t % 2)])
+            seen, rewards, _, cut, _ = many.step(actions)
+            told = [env.step(int(a)) for env, a in zip(ones, actions, strict=True)]
+            assert (seen == [one[0] for one in told]).all()
+            assert (rewards == [one[1] for one in told]).all()
+            assert (cut == [one[3] for one in told]).all()
+            if cut.any():
+                return
+        pytest.fail("nothing fell, and so nothing was seen of a fall")
+    finally:
+        many.close()
+
+
+def test_a_video_can_be_taken(tmp_path):
+    pytest.importorskip("moviepy", reason="moviepy, of the extra `video`, is not installed")
+    env = gymnasium.wrappers.RecordVideo(make("full-control", render_mode="rgb_array"), tmp_path)
+    env.reset(seed=0)
+    for _ in range(20):
+        env.step(2)
+    env.close()
+    (film,) = tmp_path.glob("*.mp4")
+    assert film.stat().st_size > 1_000
+
+
+def test_a_window_shows_it_in_real_time(monkeypatch):
+    plt = pytest.importorskip("matplotlib.pyplot")
+    plt.switch_backend("agg")
+    with pytest.raises(NoWindow, match=r'needs a display .* here it draws with agg.* "rgb_array"'):
+        make("balancing", render_mode="human")
+    # A backend without a screen, called interactive: all but the window itself.
+    monkeypatch.setattr(window, "_with_windows", lambda: ["agg"])
+    env = make("full-control", render_mode="human")
+    env.reset(options={"angle": 0.0})
+    begin = monotonic()
+    for _ in range(40):
+        env.step(1)
+    assert 0.19 < monotonic() - begin < 1.0  # 40 steps of 5 ms
+    (number,) = plt.get_fignums()
+    (shown,) = plt.figure(number).axes[0].get_images()
+    assert np.array_equal(
+        shown.get_array()[:, :, 0] == 255,
+        picture(Pendulum(), env.unwrapped.state, window.WIDTH)[:, :, 0] == 255,
+    )
+    plt.close(number)  # by hand
+    env.reset()
+    env.step(1)
+    env.close()
+    assert plt.get_fignums() == []
 
 
 def python(script):

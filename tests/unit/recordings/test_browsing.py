@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import psutil
@@ -14,8 +15,9 @@ from PIL import Image
 
 from tests.helpers import columns_of_recording
 from upswing.cli.main import main
+from upswing.recordings import catalog as catalog_module
 from upswing.recordings.catalog import catalog
-from upswing.recordings.comparison import write_comparisons
+from upswing.recordings.comparison import write_comparison, write_comparisons
 from upswing.recordings.comparison_names import comparison_names
 from upswing.recordings.ports import free_port
 from upswing.recordings.program import RERUN
@@ -124,12 +126,19 @@ def test_a_port_in_use_is_named(results):
             pass
 
 
-def test_without_a_display_it_says_what_to_do(results, monkeypatch, capsys):
+def test_without_a_display_it_says_what_to_do_before_anything_is_registered(
+    results, monkeypatch, capsys
+):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
-    assert main(["browse", "--port", str(free_port()), "--results", str(results.folder)]) == 2
-    assert "browse --web" in capsys.readouterr().err
+    monkeypatch.setattr(catalog_module, "catalog_of", lambda *_: pytest.fail("registered"))
+    port = free_port()
+    assert main(["browse", "--port", str(port), "--results", str(results.folder)]) == 2
+    said = capsys.readouterr().err
+    assert "browse --web" in said
+    assert "make browse WEB=1" in said
+    assert f"ssh -N -L {port}:127.0.0.1:{port} -L 9872:127.0.0.1:9872 -L 9873:" in said
 
 
 def browsing(results, *words):
@@ -189,15 +198,35 @@ def test_a_headless_viewer_shows_every_view_of_a_run_without_a_problem(
         viewer.set_time("frame", sequence=200, play_state="paused")
         time.sleep(0.5)
         views = viewer.get_state().views
-        assert len(views) == 11
+        assert len(views) == 12
         assert {view.view_class for view in views} == {
             "2D",
+            "StateTimeline",
             "TimeSeries",
             "TextDocument",
             "TextLog",
         }
         assert [view.reports for view in views if view.reports] == []
         assert len(viewer.take_screenshot()) > 20_000
+
+
+@pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
+@pytest.mark.parametrize(("name", "classes"), [
+    ("claim-C13", {"2D": 3, "TimeSeries": 3, "TextDocument": 1, "StateTimeline": 1}),
+    ("task-balancing", {"TimeSeries": 4, "TextDocument": 1}),
+])  # fmt: skip
+def test_a_headless_viewer_shows_every_view_of_a_comparison_without_a_problem(
+    results, tmp_path, monkeypatch, name, classes
+):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    path = write_comparison(results, load_claims(Path("config/claims.yaml")), name)
+    with headless_viewer() as viewer:
+        viewer.open(str(path))
+        wait_until_loaded(viewer)
+        time.sleep(0.5)
+        views = viewer.get_state().views
+        assert Counter(view.view_class for view in views) == classes
+        assert [view.reports for view in views if view.reports] == []
 
 
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")

@@ -28,7 +28,7 @@ def test_a_recording_handed_out_is_the_runs_own_file_and_names_its_layout(result
     assert content == (results.folder / "runs" / f"{RUN}.rrd").read_bytes()
     assert script_of_run(results, RUN) == script
     _, layout, _ = unpacked(script_of_layout(results, "full-control"))
-    assert b"Phase plane, policy" in layout
+    assert b"Which stretch of the run" in layout
     file = tmp_path / "layout.rbl"
     file.write_bytes(layout)
     done = subprocess.run([RERUN, "rrd", "verify", file], capture_output=True, check=False)

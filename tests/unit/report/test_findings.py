@@ -26,7 +26,7 @@ def test_what_is_so_is_said_with_its_numbers():
     assert (tables.number, tables.claim) == ("95 of 100", "C8")
     assert "α = 0.01" in tables.says
     assert "3 of 100" in tables.says
-    assert tables.certainty == "95 % interval of the share 0.89 to 0.98"
+    assert tables.certainty == "95 % interval of this share: 0.89 to 0.98"
     assert (small.number, small.claim) == ("100 of 100", "C3")
 
 
@@ -51,5 +51,5 @@ def test_networks_depend_where_a_grade_says_so():
         verdict("C14", None, float("nan")),
     ]
     (found,) = findings({}, rows)
-    assert (found.number, found.claim, found.certainty) == ("1 of 2", "C5", "C5: 0.43")
+    assert (found.number, found.claim, found.certainty) == ("1 of 2", "C5", "Probabilities over readings: C5 0.43")
     assert findings({}, rows[1:]) == []

@@ -24,9 +24,9 @@ from upswing.study.paths import CELLS, PAGE, RUNS, VERDICTS
 @pytest.fixture(scope="module")
 def address(results):
     """The page of a small study, with everything beside it that it links."""
-    for name in drawable(results.cells):
-        draw(name, results)
     claims = load_claims(Path("config/claims.yaml"))
+    for name in drawable(results.cells):
+        draw(name, results, claims)
     write_comparisons(results, claims)
     write_viewer(results, claims, Path("report"))
     write_report(results.folder, Path("report"))
@@ -187,6 +187,9 @@ def test_it_is_accessible(browser, address, axe, scheme):
     page = context.new_page()
     page.goto(address)
     page.evaluate("document.getElementById('C3').open = true")
+    page.locator("#overview .picture").focus()
+    page.keyboard.press("ArrowUp")  # the card of a run is there too
+    page.locator(".measure select").select_option(index=1)
     page.evaluate(axe)
     found = page.evaluate("axe.run()")
     problems = [
@@ -201,11 +204,12 @@ def test_it_is_accessible(browser, address, axe, scheme):
 def test_print_shows_figures_whole(opened):
     opened.emulate_media(media="print")
     tallest = opened.evaluate(
-        "Math.max(...[...document.images].map((i) => i.getBoundingClientRect().height))"
+        "Math.max(...[...document.querySelectorAll('figure img, .picture svg')]"
+        ".map((i) => i.getBoundingClientRect().height))"
     )
     assert 0 < tallest < 25 / 2.54 * 96  # a sheet's height, in CSS pixels
     for style in opened.evaluate(
-        "[...document.querySelectorAll('figure')].map((f) => getComputedStyle(f).breakInside)"
+        "[...document.querySelectorAll('.picture, .task, .moving')].map((f) => getComputedStyle(f).breakInside)"
     ):
         assert style == "avoid"
     assert opened.locator("#runs-table").is_hidden()

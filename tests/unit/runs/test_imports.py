@@ -7,6 +7,8 @@ import sys
 import pytest
 
 MODULES = {
+    "the package itself, for its version": ("upswing", set(), 100),
+    "a notebook that opens a study": ("upswing.api", {"pandas", "numba"}, 1_400),
     "planning": (
         "upswing.report.targets, upswing.runs.records, upswing.study.check, upswing.study.jobs",
         set(),

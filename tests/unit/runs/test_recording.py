@@ -11,7 +11,7 @@ from upswing.agents.features import locate
 from upswing.physics.environment import empty_trajectory
 from upswing.recordings.program import RERUN
 from upswing.runs.metrics import in_windows, measure
-from upswing.runs.recording.frames import STRETCH, stretches
+from upswing.runs.recording.frames import BEFORE_SUCCESS, STRETCH, stretches
 from upswing.runs.simulation import prepare
 from upswing.runs.snapshots import look, moments, snapshots
 from upswing.runs.train import train
@@ -34,6 +34,21 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
     leaps = np.flatnonzero(np.diff(frames.steps) > 1)
     assert frames.gap[leaps].all()
     assert frames.gap.sum() == len(leaps) + 1
+
+
+@pytest.mark.parametrize("kind", ["balancing", "full-control"])
+def test_stretches_are_named_and_none_overlaps_another(kind):
+    trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
+    stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
+    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable)
+    covered = [step for one in frames.named for step in range(one.first, one.after)]
+    assert covered == frames.steps[~frames.gap].tolist()
+    names = " and ".join(one.name for one in frames.named)
+    expected = {"beginning", "worst", "end"} | ({"first stable"} if stable is not None else set())
+    assert set(names.split(" and ")) == expected
+    if stable is not None:
+        (one,) = (one for one in frames.named if "first stable" in one.name)
+        assert one.first == max(0, stable - BEFORE_SUCCESS)
 
 
 def test_snapshots_are_what_was_known_then():

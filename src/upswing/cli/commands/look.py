@@ -72,18 +72,27 @@ def figure(
     positional: Positional = None,
     results: Named = None,
     study: AskedStudy = "",
+    claims: Claims = CLAIMS,
 ) -> None:
     """Draw a figure from the results, as SVG and PNG."""
-    from upswing.figures import draw
+    from upswing.figures import FIGURES, draw, named
     from upswing.runs.results import OwnRuns
 
-    draw(name, OwnRuns(results_folder(results, positional), asked_study(study)))
+    name = named(name)
+    found = OwnRuns(results_folder(results, positional), asked_study(study))
+    judged = None
+    if FIGURES[name].number:  # one of the thesis, which shows what decides its claims
+        from upswing.study.claims import load_claims
+
+        judged = load_claims(claims, found.study)
+    draw(name, found, judged)
 
 
 @panel.subcommand(
     "browse",
     epilog="A FILTER is task=, architecture=, alpha=, seed= (0,3 or 0..4), claim=C13, or the id "
-    "of a run, a cell or a task; several must all be fulfilled.",
+    "of a run, a cell or a task; several must all be fulfilled. All studies of the folder are opened "
+    "together: its own, and those in folders right below it.",
 )
 def browse(
     filters: Annotated[
@@ -102,20 +111,33 @@ def browse(
         int, typer.Option(help="Of the report; a free one if this is in use.")
     ] = 9873,
 ) -> None:
-    """Browse the recordings of all runs, or of some."""
-    from upswing.recordings.catalog import catalog, show
+    """Browse the recordings of all runs of all studies of a folder, or of some."""
+    from upswing.cli.terminal import say
+    from upswing.recordings.catalog import catalog_of, check_display, has_display, show, tunnel
     from upswing.recordings.lending import lending
-    from upswing.recordings.run_filter import select
-    from upswing.runs.results import Results
+    from upswing.recordings.ports import check_free
+    from upswing.recordings.studies import choose
     from upswing.study.paths import PAGE
 
-    folder = results_folder(results)
-    found = Results(folder)
-    runs = select(found, filters or ())
+    chosen, remarks = choose(results_folder(results), filters or ())
     if only_say:
-        print("\n".join(str(folder / recording) for recording in runs["recording"]))
+        for one in chosen:
+            print("\n".join(str(one.results.folder / path) for path in one.runs["recording"]))
         return
-    with catalog(found, runs, port) as served, lending(found, report_port) as lent:
-        if (folder / PAGE).exists():
+    if not web:  # before thousands of recordings are registered
+        check_display([port, web_port, report_port])
+    for number in (port, web_port) if web else (port,):
+        check_free(number)
+    for remark in remarks:
+        say(remark)
+    first = chosen[0].results
+    with (
+        catalog_of(chosen, port, lambda words: print(words, flush=True)) as served,
+        lending(first, report_port) as lent,
+    ):
+        if (first.folder / PAGE).exists():
             print(f"the report, in which every run opens: {lent.page}", flush=True)
+        if web and not has_display():
+            ways = tunnel([port, web_port, lent.port])
+            print(f"over ssh, first on the computer before you: {ways}", flush=True)
         show(served, web, web_port)

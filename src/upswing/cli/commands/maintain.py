@@ -69,6 +69,22 @@ def readme(
     write_readme(folder, templates, readme, judged, made_from)
 
 
+@panel.subcommand("site")
+def site(
+    folder: Annotated[
+        Path, typer.Argument(metavar="FOLDER", help="What is written; an earlier site is replaced.")
+    ],
+    results: Named = None,
+    templates: Templates = TEMPLATES,
+) -> None:
+    """Write the report with its recordings as a folder for any host of static files."""
+    from upswing.report.site import write_site
+
+    files = write_site(results_folder(results), templates, folder)
+    size = sum((folder / file).stat().st_size for file in files) / 1e6
+    print(f"{folder}: {len(files)} files, {size:.0f} MB; {folder / 'index.html'} is the page")
+
+
 @panel.subcommand("exploratory")
 def exploratory(
     positional: Positional = None, results: Named = None, templates: Templates = TEMPLATES

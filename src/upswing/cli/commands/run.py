@@ -1,5 +1,6 @@
 """Before a study runs. It is run by ``make reproduce`` and ``make study``."""
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -25,10 +26,27 @@ def check(
     ] = Path("config/config.yaml"),
     claims: Claims = CLAIMS,
     sweeps: Sweeps = SWEEPS,
+    begin: Annotated[
+        bool,
+        typer.Option(
+            "--begin", help="As make does before a study: what is to come, and print its folder."
+        ),
+    ] = False,
 ) -> None:
-    """Check a configuration and say what it comes to."""
-    from upswing.cli.shown.study import print_matrix
+    """Check a configuration and say what it comes to.
+
+    And what its folder holds of that, and about how long and how large the rest will be.
+    """
+    from upswing.cli.shown.study import print_matrix, print_outlook
+    from upswing.runs.outlook import outlook
     from upswing.study.check import checked
+    from upswing.study.history_paths import NOTE, checked_note
     from upswing.study.matrix import Matrix
 
-    print_matrix(Matrix(checked(config, claims, sweeps)))
+    matrix = Matrix(checked(config, claims, sweeps))
+    if begin:
+        checked_note(os.environ.get(NOTE, ""), "NOTE")
+    else:
+        print_matrix(matrix)
+    results = matrix.study.results
+    print_outlook(outlook(matrix, Path(results)), results, beginning=begin)

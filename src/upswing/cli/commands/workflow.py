@@ -23,6 +23,7 @@ from upswing.cli.panel import Job, Panel
 
 if TYPE_CHECKING:
     from upswing.study.config import Study
+    from upswing.study.spec import Spec
     from upswing.study.sweeps import Sweep
 
 panel = Panel("Called by the workflow")
@@ -48,21 +49,36 @@ def train(
     from upswing.study.spec import parse
 
     specs = [parse(text) for text in texts]  # all of them, before anything is written
+    _refuse_adopted(specs)
     from upswing.runs.train import train
 
     for spec in specs:
         train(spec, results_folder(results))
 
 
+def _refuse_adopted(specs: "list[Spec]") -> None:
+    """What a specification names is no reason to run somebody's code."""
+    from upswing.study.config import ADOPTED
+    from upswing.study.errors import BadInput
+
+    adopted = [spec for spec in specs if spec.architecture.learner == ADOPTED]
+    if adopted:
+        raise BadInput(
+            [
+                f"spec: {one.cell}: is of an adopted agent; `upswing adopt` runs it"
+                for one in adopted
+            ]
+        )
+
+
 @panel.subcommand("tables", cls=Job)
 def tables(positional: Positional = None, results: Named = None) -> None:
     """Write tables/runs.parquet and tables/cells.parquet."""
     from upswing.analysis.aggregate import write_tables
-    from upswing.runs.study_file import read_study
-    from upswing.study.matrix import Matrix
+    from upswing.runs.adopted import joined
 
     folder = results_folder(results, positional)
-    write_tables(folder, Matrix(read_study(folder)))
+    write_tables(folder, joined(folder))
 
 
 @panel.subcommand("comparison", cls=Job)

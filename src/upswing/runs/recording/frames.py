@@ -8,6 +8,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
+from upswing.physics.pendulum import Pendulum
 from upswing.study.measured import Windows
 
 FRAME, STEP, SIM_TIME = "frame", "step", "sim_time"
@@ -22,8 +23,22 @@ BEFORE_SUCCESS = 150
 DRAWN_EVERY = 4
 """The pendulum is drawn 50 times a second [steps]."""
 
+REAL_TIME = 1 / Pendulum().time_step
+"""Number of frames a second at which what is shown passes as fast as it happened: one for each step."""
+
+BEGINNING, WORST, FIRST_STABLE, END = "beginning", "worst", "first stable", "end"
+"""What the stretches are called."""
+
 Real = NDArray[np.float64]
 Steps = NDArray[np.int64]
+
+
+class Stretch(NamedTuple):
+    """A part of a run that is shown step by step, and why."""
+
+    first: int  # its first step
+    after: int  # the step after its last
+    name: str
 
 
 class Frames(NamedTuple):
@@ -31,7 +46,7 @@ class Frames(NamedTuple):
 
     steps: Steps  # (rows,)
     gap: NDArray[np.bool_]  # rows that only end a line: (rows,)
-    time_step: float  # [s]
+    named: tuple[Stretch, ...] = ()  # in the order of their steps; none overlaps another
 
     @property
     def drawn(self) -> Steps:
@@ -43,23 +58,31 @@ class Frames(NamedTuple):
         return np.minimum(np.searchsorted(self.steps, steps), len(self.steps) - 1)
 
 
-def stretches(
-    trajectory: Trajectory, windows: Windows, first_stable_step: int | None, time_step: float
-) -> Frames:
-    """The stretches shown in full: the beginning, the first success, the worst window, the end."""
+def stretches(trajectory: Trajectory, windows: Windows, first_stable_step: int | None) -> Frames:
+    """The stretches shown in full: the beginning, the first success, the worst window, the end.
+
+    Where two overlap, the one that begins later takes over.
+    """
     steps = len(trajectory.angle)
     worst = np.lexsort((windows.mean_reward, -windows.falls))[0]
-    begins = [0, int(windows.first_step[worst]), steps - STRETCH]
+    begins = {BEGINNING: 0, WORST: int(windows.first_step[worst]), END: steps - STRETCH}
     if first_stable_step is not None:
-        begins.append(first_stable_step - BEFORE_SUCCESS)
+        begins[FIRST_STABLE] = first_stable_step - BEFORE_SUCCESS
     shown = np.zeros(steps + 1, dtype=np.bool_)
-    for begin in begins:
+    names: dict[int, list[str]] = {}
+    for name, begin in begins.items():
         shown[max(0, begin) : max(0, begin) + STRETCH] = True
+        names.setdefault(max(0, begin), []).append(name)
     shown[steps] = False
     ends = np.flatnonzero(shown[:-1] & ~shown[1:]) + 1
     rows = np.sort(np.concatenate([np.flatnonzero(shown), ends]))
+    firsts = sorted(names)
+    named = tuple(
+        Stretch(first, min(first + STRETCH, following, steps), " and ".join(names[first]))
+        for first, following in zip(firsts, [*firsts[1:], steps], strict=True)
+    )
     # A gap's row stands at the first step that is not shown.
-    return Frames(rows, ~shown[rows], time_step)
+    return Frames(rows, ~shown[rows], named)
 
 
 def time_columns(
@@ -69,7 +92,7 @@ def time_columns(
     columns = {
         FRAME: lambda: rr.TimeColumn(FRAME, sequence=frames.at(steps)),
         STEP: lambda: rr.TimeColumn(STEP, sequence=steps),
-        SIM_TIME: lambda: rr.TimeColumn(SIM_TIME, duration=steps * frames.time_step),
+        SIM_TIME: lambda: rr.TimeColumn(SIM_TIME, duration=steps * Pendulum().time_step),
     }
     return [columns[name]() for name in timelines]
 

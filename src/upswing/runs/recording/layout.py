@@ -3,7 +3,9 @@
 import rerun as rr
 import rerun.blueprint as rrb
 
-from upswing.runs.recording.frames import FRAME
+from upswing.runs.recording.axes import ABOVE, BELOW, LEFT, SIDE
+from upswing.runs.recording.frames import FRAME, REAL_TIME
+from upswing.runs.recording.labels import LABELS, OTHER_ENDINGS, label
 from upswing.study.task import Task
 
 PENDULUM_SIZE = 0.26
@@ -16,22 +18,37 @@ def whole_run() -> rrb.TimeAxis:
     return rrb.TimeAxis(view_range=rr.TimeRange(start=unlimited, end=unlimited))
 
 
-HIDDEN_COLUMNS = ("digest", "dirty", "git_commit", "spec", "task", "seconds", "steps_per_second")
+HIDDEN = (
+    "digest", "dirty", "git_commit", "spec", "task", "seconds", "steps_per_second", "falls_first_5000",
+    "falls_2500_to_5000", "falls_after_stable", *OTHER_ENDINGS,
+)  # fmt: skip
+"""Columns of the catalog's table that are shown where they are asked for."""
 
 
 def table_layout(task: Task) -> rrb.TableBlueprint:
-    """The catalog's table of the runs of a task: what a run is, then what came of it."""
+    """The catalog's table of the runs of a task: what a run is, then what came of it, with units."""
     measures = task.first_measures
     first = ("architecture", "alpha", "seed", *measures, "first_stable_step")
-    rest = ("mean_reward", "steps")
+    names = dict.fromkeys((*first, *(name for name in LABELS if name not in HIDDEN)))
     columns = [rrb.table.Column("recording link", name="recording")]
     columns += [
-        rrb.table.Column(f"property:run:{name}", name=name.replace("_", " "))
-        for name in (*first, *rest)
+        rrb.table.Column(
+            f"property:run:{name}",
+            name=label(name),
+            # The viewer puts every other kind of text into quotation marks.
+            column_type=rr.components.EntityPath if name == "architecture" else None,
+        )
+        for name in names
     ]
-    hidden = [f"property:run:{name}" for name in HIDDEN_COLUMNS]
-    hidden += [f"property:RecordingInfo:{name}" for name in ("name", "start_time")]
-    columns += [rrb.table.Column(name, visible=False) for name in hidden]
+    columns += [
+        rrb.table.Column(f"property:run:{name}", name=label(name), visible=False)
+        for name in dict.fromkeys(HIDDEN)
+        if name not in names
+    ]
+    columns += [
+        rrb.table.Column(f"property:RecordingInfo:{name}", visible=False)
+        for name in ("name", "start_time")
+    ]
     best_first = rrb.table.SortBy(
         f"property:run:{measures[0]}",
         direction="ascending" if task.judged_by == "falls" else "descending",
@@ -57,6 +74,9 @@ def run_layout(task: Task) -> rrb.Blueprint:
             plot_legend=rrb.PlotLegend(visible=True, corner=rrb.Corner2D.RightTop),
         )
 
+    around_a_map = rrb.VisualBounds2D(
+        x_range=(-LEFT, SIDE + LEFT / 2), y_range=(-ABOVE, SIDE + BELOW)
+    )
     pictures = rrb.Vertical(
         rrb.Spatial2DView(
             name="Pendulum",
@@ -67,31 +87,46 @@ def run_layout(task: Task) -> rrb.Blueprint:
         ),
         rrb.Horizontal(
             rrb.Spatial2DView(
-                name="Phase plane, policy",
+                name="Policy, and the state",
                 origin="/phase",
                 contents=["/phase/**", "/learned/policy"],
+                visual_bounds=around_a_map,
             ),
-            rrb.Spatial2DView(name="Value", origin="/learned", contents=["/learned/value"]),
+            rrb.Spatial2DView(
+                name="Value",
+                origin="/learned",
+                contents=["/learned/**", "- /learned/policy"],
+                visual_bounds=around_a_map,
+            ),
         ),
         row_shares=[2, 3],
     )
     curves = rrb.Vertical(
+        rrb.StateTimelineView(
+            name="Which stretch of the run", origin="/stretch", time_view=whole_run()
+        ),
         lines("Angle [°]", "/angle", "/envelope/angle", axis=(-1.1 * limit, 1.1 * limit)),
         lines("Angular velocity [rad/s]", "/angular_velocity"),
         lines("Action: cart acceleration [m/s²]", "/action", axis=(-11, 11)),
         lines("Learning: reward and TD error [rad²]", "/learning"),
-        row_shares=[3, 2, 1.5, 2],
+        row_shares=[1, 3, 2, 1.5, 2],
     )
     words = rrb.Vertical(
-        rrb.TextDocumentView(name="Run", origin="/about"),
-        rrb.TextLogView(name="Events", origin="/events"),
+        rrb.TextDocumentView(name="What this is", origin="/about"),
+        rrb.TextLogView(
+            name="Events",
+            origin="/events",
+            columns=rrb.TextLogColumns(
+                timeline_columns=[FRAME], text_log_columns=["loglevel", "body"]
+            ),
+        ),
         lines("Cart position [m]", "/cart/position"),
         lines("Cart velocity [m/s]", "/cart/velocity"),
-        row_shares=[3, 2, 1.2, 1.2],
+        row_shares=[4, 2.5, 1, 1],
     )
     return rrb.Blueprint(
-        rrb.Horizontal(pictures, curves, words, column_shares=[4, 5, 2.5]),
-        rrb.TimePanel(timeline=FRAME, state="collapsed", playback_speed=1.0, fps=100.0),
+        rrb.Horizontal(pictures, curves, words, column_shares=[4, 4.5, 3.5]),
+        rrb.TimePanel(timeline=FRAME, state="collapsed", playback_speed=1.0, fps=REAL_TIME),
         rrb.SelectionPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
     )

@@ -1,24 +1,32 @@
 """The pictures of a recording: the pendulum, the phase plane, and maps of what was learned."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.runs.recording.axes import (
+    ACTION_NAMES,
+    MODULES,
+    UNDECIDED_COLOUR,
+    Grid,
+    draw_axes,
+    module_colour,
+)
 from upswing.runs.recording.frames import DRAWN_EVERY, Frames, time_columns
 from upswing.runs.snapshots import Snapshots
 
 TRAIL = 24
 """Number of drawings whose states the phase plane shows: half a second."""
 
-PIXELS = (10, 4)
-"""The size of a tile in the maps: of φ and of φ̇."""
-
-LEFT, NONE, RIGHT = np.array((0, 114, 178)), np.array((221, 221, 221)), np.array((213, 94, 0))
-MODULES = ("balancing", "upswing")
+UNDECIDED = len(MODULES) * ACTIONS
+"""The class of a tile where several actions are equally good, as where nothing is known yet."""
 
 
 def draw_pendulum(
@@ -56,9 +64,7 @@ def draw_pendulum(
         "pendulum/ground", indexes=indexes, columns=rr.Transform3D.columns(translation=ground)
     )
     push = np.zeros((len(shown), 2), dtype=np.float32)
-    push[:, 0] = np.array(body.accelerations)[trajectory.action[shown]] / (
-        10 * body.accelerations[-1]
-    )
+    push[:, 0] = np.array(ACCELERATIONS)[trajectory.action[shown]] / 100
     recording.log(
         "pendulum/push",
         rr.Arrows2D.from_fields(colors=[[213, 94, 0]], radii=[0.004], origins=[[0, 0.022]]),
@@ -74,11 +80,11 @@ def draw_phase_plane(
 ) -> None:
     """The state in the plane of φ and φ̇, over the map of the policy."""
     shown = frames.drawn
-    width, height = (parts * size for parts, size in zip(learned.owner.shape, PIXELS, strict=True))
-    limit, fastest = learned.angle_limit, learned.velocity_limit
+    grid = grid_of(learned)
+    width, height, limit = grid.width, grid.height, grid.angle_limit
     x = (np.clip(trajectory.angle[shown], -limit, limit) + limit) / (2 * limit) * width
-    velocity = np.clip(trajectory.angular_velocity[shown], -fastest, fastest)
-    y = (fastest - velocity) / (2 * fastest) * height
+    velocity = np.clip(trajectory.angular_velocity[shown], -VELOCITY_LIMIT, VELOCITY_LIMIT)
+    y = (VELOCITY_LIMIT - velocity) / (2 * VELOCITY_LIMIT) * height
     places = np.stack([x, y], axis=1).astype(np.float32)
     # A trail ends where the stretch began, the pendulum was reset, or φ came round.
     new = (np.diff(shown, prepend=shown[0]) > DRAWN_EVERY) | (
@@ -109,38 +115,33 @@ def draw_phase_plane(
 
 
 def draw_learned(
-    recording: rr.RecordingStream, frames: Frames, learned: Snapshots, body: Pendulum
+    recording: rr.RecordingStream, frames: Frames, learned: Snapshots, unit: float = 1.0
 ) -> None:
-    """Value and greedy policy over the grid, as they grew."""
-    names = [f"{ẍ:+.3g} m/s²" for ẍ in body.accelerations]
-    actions = len(names)
-    # The class of a tile where several actions are equally good, as where nothing is known yet.
-    undecided = len(MODULES) * actions
-    modules = int(learned.owner.max()) + 1
-    classes = [
-        rr.AnnotationInfo(
-            id=module * actions + action,
-            label=f"{MODULES[module]}: {names[action]}" if modules > 1 else names[action],
-            color=tuple(int(c * (1 - 0.25 * module)) for c in _shade(body, action)),
-        )
-        for module in range(modules)
-        for action in range(actions)
-    ]
-    classes.append(rr.AnnotationInfo(id=undecided, label="undecided", color=(60, 60, 60)))
-    recording.log("learned", rr.AnnotationContext(classes), static=True)
-    recording.log("phase", rr.AnnotationContext(classes), static=True)
+    """Value and greedy policy over the grid, as they grew, with axes and what their colours mean.
+
+    Args:
+        recording: where they go.
+        frames: the rows of the recording.
+        learned: what is shown; its values divided by ``unit`` are in rad².
+        unit: of the values (R3), in rad².
+    """
+    grid = grid_of(learned)
+    recording.log("learned", _classes(grid.modules), static=True)
+    recording.log("phase", _classes(grid.modules), static=True)
     finite = np.nan_to_num(learned.q, nan=0.0, posinf=0.0, neginf=np.finfo(np.float64).min)
     equals = (finite == finite.max(axis=-1, keepdims=True)).sum(axis=-1)
-    policy = np.where(equals > 1, undecided, finite.argmax(axis=-1) + actions * learned.owner)
+    policy = np.where(equals > 1, UNDECIDED, finite.argmax(axis=-1) + ACTIONS * learned.owner)
     value = finite.max(axis=-1)
-    lowest = min(float(value.min()), -1e-9)
-    shade = np.clip(np.round(255 * (1 - value / lowest)), 0, 255)
+    best = learned.q.max(axis=-1)
+    lowest = min(float(best[np.isfinite(best)].min(initial=0)), -1e-9)
+    shade = np.round(255 * (1 - np.clip(value, lowest, 0) / lowest))
+    draw_axes(recording, grid, lowest / unit)
     steps = np.minimum(learned.steps, frames.steps[-1])
     for entity, maps, kind in (
         ("learned/policy", policy, rr.SegmentationImage),
         ("learned/value", shade, rr.DepthImage),
     ):
-        images = np.stack([_picture(one) for one in maps])
+        images = np.stack([_picture(one, *grid.pixels) for one in maps])
         format_ = rr.components.ImageFormat(
             width=images.shape[2], height=images.shape[1], color_model="L", channel_datatype="U8"
         )
@@ -162,16 +163,28 @@ def draw_learned(
         )
 
 
-def _shade(body: Pendulum, action: int) -> NDArray[Any]:
-    """The colour of an action: grey for none, towards one colour to the left, another to the right."""
-    push = body.accelerations[action]
-    strongest = body.accelerations[-1] if push > 0 else -body.accelerations[0]
-    return (
-        NONE + (RIGHT if push > 0 else LEFT) * abs(push / strongest) - NONE * abs(push / strongest)
-    )
+def grid_of(learned: Snapshots) -> Grid:
+    """Of what the maps of a run are pictures."""
+    return Grid(learned.owner.shape, learned.angle_limit, int(learned.owner.max()) + 1)
 
 
-def _picture(values: NDArray[Any]) -> NDArray[np.uint8]:
-    """Values (angle parts, velocity parts) as a picture: φ to the right, φ̇ upwards."""
+@cache
+def _classes(modules: int) -> rr.AnnotationContext:
+    """What the classes of the policy's map are called and how they are coloured."""
+    classes = [
+        rr.AnnotationInfo(
+            id=module * ACTIONS + action,
+            label=f"{MODULES[module]}: {name}" if modules > 1 else name,
+            color=module_colour(module, action),
+        )
+        for module in range(modules)
+        for action, name in enumerate(ACTION_NAMES)
+    ]
+    classes.append(rr.AnnotationInfo(id=UNDECIDED, label="undecided", color=UNDECIDED_COLOUR))
+    return rr.AnnotationContext(classes)
+
+
+def _picture(values: NDArray[Any], width: int, height: int) -> NDArray[np.uint8]:
+    """Values (angle parts, velocity parts), each so wide and high: φ to the right, φ̇ upwards."""
     upwards = values.T[::-1].astype(np.uint8)
-    return upwards.repeat(PIXELS[1], axis=0).repeat(PIXELS[0], axis=1)
+    return upwards.repeat(height, axis=0).repeat(width, axis=1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
+from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.frames import (
     SIM_TIME,
@@ -21,16 +22,23 @@ from upswing.runs.recording.frames import (
     stretches,
     time_columns,
 )
+from upswing.runs.recording.happenings import Event, happenings, last_fall
 from upswing.runs.recording.pictures import draw_learned, draw_pendulum, draw_phase_plane
+from upswing.runs.recording.words import about
+from upswing.runs.simulation import REWARD_SCALES
 from upswing.runs.snapshots import Snapshots
-from upswing.study.ids import recording_id
+from upswing.study.ids import recording_id, seed_of
 from upswing.study.measured import Measures, Windows
+from upswing.study.spec import parse
 
 ENVELOPE = 200
 """Largest number of windows by whose lowest and highest angle the whole run is shown."""
 
-LOGGED_FALLS = 50
-"""Number of first falls named in the log."""
+DIGITS = 5
+"""Of a property; what is exact stands in the table of runs."""
+
+NOT_SHOWN = "not shown"
+"""What the lane of stretches says between them."""
 
 
 def write_recording(
@@ -45,7 +53,8 @@ def write_recording(
 ) -> None:
     """Write the recording of ``run``, with its parameters and measures as ``properties``.
 
-    The layout is not in it: it is registered with the catalog once.
+    The layout is not in it: it is registered with the catalog once. ``properties`` have the run's
+    specification under ``spec``.
 
     Raises:
         OSError: it cannot be written; the disk may be full.
@@ -57,14 +66,19 @@ def write_recording(
     try:
         rr.send_recording_name(run, recording=recording)
         recording.send_property("run", rr.AnyValues(**_known(properties)))
-        frames = stretches(trajectory, windows, measures.first_stable_step, body.time_step)
-        _about(recording, run, properties)
-        _lines(recording, frames, trajectory, body)
-        _envelope(recording, windows, frames)
+        frames = stretches(trajectory, windows, measures.first_stable_step)
+        spec = parse(properties["spec"])
+        fell = last_fall(trajectory, windows)
+        words = about(spec, seed_of(run), measures, fell, frames, properties)
+        recording.log("about", rr.TextDocument(words, media_type="text/markdown"), static=True)
+        draw_lines(recording, frames, trajectory)
+        draw_stretches(recording, frames)
+        draw_envelope(recording, windows, frames)
         draw_pendulum(recording, frames, trajectory, body)
         draw_phase_plane(recording, frames, trajectory, learned)
-        draw_learned(recording, frames, learned, body)
-        _events(recording, frames, trajectory, measures)
+        unit = REWARD_SCALES[spec.readings.reward_unit]
+        draw_learned(recording, frames, learned, unit)
+        _events(recording, frames, happenings(trajectory, windows, measures, frames))
         content = memory.drain_as_bytes()
     finally:
         recording.disconnect()
@@ -72,12 +86,10 @@ def write_recording(
         beside.write_bytes(content)
 
 
-def _lines(
-    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, body: Pendulum
-) -> None:
+def draw_lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:
     """Angle, velocity, cart, action, reward and TD error of every step of the stretches."""
     at = np.minimum(frames.steps, len(trajectory.angle) - 1)
-    accelerations = np.array(body.accelerations)[trajectory.action[at]]
+    accelerations = np.array(ACCELERATIONS)[trajectory.action[at]]
     angle = np.degrees(trajectory.angle[at])
     lines: dict[str, dict[str, NDArray[Any]]] = {
         "angle": {"φ": np.where(_jumps(angle), np.nan, angle)},
@@ -109,7 +121,7 @@ def _jumps(angle: Real) -> NDArray[np.bool_]:
     return np.abs(np.diff(angle, prepend=angle[:1])) > 60
 
 
-def _envelope(recording: rr.RecordingStream, windows: Windows, frames: Frames) -> None:
+def draw_envelope(recording: rr.RecordingStream, windows: Windows, frames: Frames) -> None:
     """The lowest and the highest angle over the whole run."""
     group = -(-len(windows.first_step) // ENVELOPE)
     begins = np.arange(0, len(windows.first_step), group)
@@ -131,53 +143,43 @@ def _envelope(recording: rr.RecordingStream, windows: Windows, frames: Frames) -
     )
 
 
-def _events(
-    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, measures: Measures
-) -> None:
-    """Start, falls and first success, as lines of a log."""
-    falls = np.flatnonzero(trajectory.reset)
-    events = [(0, "INFO", "start"), (measures.steps - 1, "INFO", "end")]
-    events += [
-        (int(step), "WARN", f"fall {number + 1} of {len(falls)}, reset")
-        for number, step in enumerate(falls[:LOGGED_FALLS])
-    ]
-    if measures.first_stable_step is not None:
-        events.append((measures.first_stable_step, "INFO", "first stable window begins"))
-    if measures.diverged_at is not None:
-        words = "diverged: a value is not finite, and nothing after it means anything"
-        events.append((measures.diverged_at, "ERROR", words))
-    events.sort()
+_envelope = draw_envelope
+
+
+def draw_stretches(recording: rr.RecordingStream, frames: Frames) -> None:
+    """Which stretch it is at every moment, as a lane of colours; nothing in the gaps between."""
+    states: dict[int, str] = {}
+    for stretch in frames.named:
+        states[stretch.first] = stretch.name
+        states.setdefault(stretch.after, NOT_SHOWN)
+    steps = np.array(sorted(states), dtype=np.int64)
+    recording.send_columns(
+        "stretch",
+        indexes=time_columns(steps, frames),
+        columns=rr.StateChange.columns(state=[states[step] for step in steps.tolist()]),
+    )
+
+
+def _events(recording: rr.RecordingStream, frames: Frames, events: list[Event]) -> None:
+    """What happened, as lines of a log."""
     shown = set(frames.steps[~frames.gap].tolist())
     # What happened outside the stretches has no frame.
     for inside, timelines in ((True, TIMELINES), (False, (STEP, SIM_TIME))):
-        if some := [event for event in events if (event[0] in shown) == inside]:
+        if some := [event for event in events if (event.step in shown) == inside]:
             recording.send_columns(
                 "events",
-                indexes=time_columns(np.array([step for step, _, _ in some]), frames, timelines),
+                indexes=time_columns(np.array([event.step for event in some]), frames, timelines),
                 columns=rr.TextLog.columns(
-                    text=[text for _, _, text in some], level=[level for _, level, _ in some]
+                    text=[f"{event.text} · step {event.step:,}" for event in some],
+                    level=[event.level for event in some],
                 ),
             )
 
 
-def _about(recording: rr.RecordingStream, run: str, properties: Mapping[str, Any]) -> None:
-    """The run in words."""
-    rows = "\n".join(
-        f"| {name.replace('_', ' ')} | {_brief(value)} |"
-        for name, value in _known(properties).items()
-        if name not in ("spec", "digest")
-    )
-    recording.log(
-        "about",
-        rr.TextDocument(f"**{run}**\n\n| | |\n| --- | --- |\n{rows}\n", media_type="text/markdown"),
-        static=True,
-    )
-
-
-def _brief(value: Any) -> str:
-    return f"{value:,.4g}" if isinstance(value, float) else str(value)
-
-
 def _known(properties: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what is unknown: a recording has no empty property."""
-    return {name: value for name, value in properties.items() if value is not None}
+    """Without what is unknown, for a recording has no empty property; numbers as a table shows them."""
+    return {
+        name: float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+        for name, value in properties.items()
+        if value is not None
+    }

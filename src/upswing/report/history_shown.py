@@ -1,0 +1,81 @@
+"""What the page shows of the history: the entries, and how each verdict went over them."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from upswing.analysis.history.entry import Changed, Listed
+from upswing.analysis.history.read import listed
+
+MOST = 10
+"""Largest number of entries that the page shows, the newest."""
+
+MOST_KEYS = 6
+"""Largest number of changed keys that are named of an entry."""
+
+SIGNS = {"reproduced": "✓", "partly": "◐", "not reproduced": "✗", "inconclusive": "?"}
+NOT_JUDGED = "not in this study"
+
+
+class ShownEntry(NamedTuple):
+    """An entry as the page shows it."""
+
+    number: int
+    id: str
+    when: str
+    commit: str
+    runs: int
+    cells: int
+    notes: list[str]
+    first: bool
+    changed: tuple[Changed, ...]  # keys of the configuration
+    more_keys: int
+    verdicts: tuple[Changed, ...]
+    counts: list[str]
+
+
+def history(results: Path) -> dict[str, Any]:
+    """The newest entries, the newest first; how many are older; of each claim a verdict for each entry.
+
+    Raises:
+        BadInput: the list of entries is not what was written.
+    """
+    every = listed(results)[::-1]
+    shown = every[:MOST]
+    judged = dict.fromkeys(
+        claim for entry in shown for claim, word in entry.verdicts.items() if word != NOT_JUDGED
+    )
+    return {
+        "entries": [_shown(entry) for entry in shown],
+        "older": len(every) - len(shown),
+        "claims": [(claim, [_verdict(entry, claim) for entry in shown]) for claim in judged],
+    }
+
+
+def _verdict(entry: Listed, claim: str) -> tuple[str, str]:
+    """The verdict of an entry, and the sign for it; both empty where it was not judged."""
+    word = entry.verdicts.get(claim, NOT_JUDGED)
+    return ("", "") if word == NOT_JUDGED else (word, SIGNS.get(word, "?"))
+
+
+def _shown(entry: Listed) -> ShownEntry:
+    runs = entry.runs
+    numbers = (
+        (runs.new, "new runs"),
+        (runs.changed, "runs with other steps"),
+        (runs.gone, "runs gone"),
+        (entry.changed_cells, "cells that differ"),
+    )
+    return ShownEntry(
+        number=entry.number,
+        id=entry.id,
+        when=entry.when_shown,
+        commit=entry.commit_shown,
+        runs=runs.all,
+        cells=entry.cells,
+        notes=entry.every_note,
+        first=entry.before is None,
+        changed=entry.configuration[:MOST_KEYS],
+        more_keys=max(len(entry.configuration) - MOST_KEYS, 0),
+        verdicts=entry.changed_verdicts,
+        counts=[f"{number:,} {words}" for number, words in numbers if number],
+    )

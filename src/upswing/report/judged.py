@@ -1,0 +1,61 @@
+"""The verdicts as the page shows them, each with its evidence."""
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from upswing.report import words
+from upswing.report.readings_shown import rows
+from upswing.report.scale import strip
+from upswing.runs.files.tables import read_verdicts
+from upswing.study.claim_parts import WEAKEST_FIRST
+from upswing.study.errors import BadInput
+from upswing.study.paths import EVIDENCE
+
+Row = dict[str, Any]
+
+
+def judged(results: Path, comparisons: pd.DataFrame) -> list[Row]:
+    """Each verdict with its evidence, and each comparison with its strip."""
+    evidence = rows(comparisons)
+    verdicts = rows(read_verdicts(results))
+    for row in evidence:
+        row["strip"] = strip(row)
+    for verdict in verdicts:
+        own = [row for row in evidence if row["claim"] == verdict["claim"]]
+        verdict["evidence"] = own
+        same = [
+            row for row in own
+            if (row["cells"], row["threshold"]) == (verdict["cells"], verdict["threshold"])
+        ]  # fmt: skip
+        if not same:
+            raise BadInput(
+                [
+                    f"{results / EVIDENCE}: {verdict['claim']}: has no row for its verdict; "
+                    f"`upswing verdicts {results}` makes both tables"
+                ]
+            )
+        verdict["decisive"] = same[0]
+        verdict["unit"] = words.unit(same[0])
+        for row in own:
+            row["several"] = sum(other["part"] == row["part"] for other in own) > 1
+            row["many_cells"] = len(str(row["cells"]).split(" : ")) > 1
+        verdict["held"] = [
+            next(row["says"] for row in own if row["part"] == part)
+            for part in sorted({row["part"] for row in own})
+            if all(row["verdict"] == "reproduced" for row in own if row["part"] == part)
+        ]
+        verdict["figure"] = None if pd.isna(verdict["figure"]) else int(verdict["figure"])
+    return verdicts
+
+
+def counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:
+    """Each verdict that was given, the best first, with its claims."""
+    given = Counter(row["verdict"] for row in verdicts)
+    return [
+        (word, [row["claim"] for row in verdicts if row["verdict"] == word])
+        for word in reversed(WEAKEST_FIRST)
+        if given[word]
+    ]
