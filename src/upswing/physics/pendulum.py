@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from upswing.physics.elementary import sine_and_cosine
 from upswing.physics.jit import compiled
+from upswing.study.physical import PendulumOptions
 
 FROM_UPRIGHT = 1.0
 FROM_HANGING = -1.0
@@ -24,6 +25,19 @@ class Pendulum(NamedTuple):
     time_step: float = 0.005  # dt [s]
     orientation: float = FROM_UPRIGHT  # where φ = 0 is (R1); FROM_HANGING is eq. 13 as printed
     accelerations: tuple[float, ...] = (-10.0, 0.0, 10.0)  # ẍ of each action [m/s²], ascending
+
+
+def body_of(options: PendulumOptions, orientation: float = FROM_UPRIGHT) -> Pendulum:
+    """The pendulum of a task."""
+    return Pendulum(
+        mass=float(options.mass),
+        length=float(options.length),
+        gravity=float(options.gravity),
+        friction=float(options.friction),
+        time_step=float(options.time_step),
+        orientation=orientation,
+        accelerations=tuple(map(float, options.accelerations)),
+    )
 
 
 @compiled

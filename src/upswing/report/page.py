@@ -1,6 +1,5 @@
 """The page: what each part of the template is given."""
 
-from math import atan, degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,8 +8,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
-from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -27,6 +24,7 @@ from upswing.report.history_shown import history
 from upswing.report.interactive import embedded, endings, shown_figures
 from upswing.report.judged import counts, judged
 from upswing.report.kept import kept
+from upswing.report.pendulums import body_of_bound, lengths, system
 from upswing.report.pictures import data_of
 from upswing.report.readings_shown import over_readings, rows, swept
 from upswing.report.registered import registered
@@ -141,8 +139,7 @@ def page_of(
         "registered": registered(results, study),
         "exploratory": exploratory(templates),
         "over": over_readings(results, templates, verdicts),
-        "body": Pendulum(),
-        "held": _held(Pendulum()),
+        **system(study, templates),
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": by_name,
@@ -167,9 +164,6 @@ def page_of(
         "provenance": provenance(),
         "style": _all(templates, STYLES),
         "script": _all(templates, SCRIPTS),
-        "drawings": {
-            path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))
-        },
     }
     try:
         page = environment.get_template("index.html.j2").render(shown)
@@ -203,11 +197,6 @@ def _greedy(runs: list[Row]) -> dict[str, float]:
     }
 
 
-def _held(body: Pendulum) -> float:
-    """Where a cart that is pushed one way for ever holds the rod, from upright [degrees] (eq. 13)."""
-    return 180 - degrees(atan(max(ACCELERATIONS) / body.gravity))
-
-
 def _animation(results: Path) -> str:
     """The moving picture as an address that holds all of it; empty without the cells that it shows."""
     panels = stretches(Results(results))
@@ -221,6 +210,8 @@ def _beyond(results: Path, at: str) -> Row:
         drawn_figures = shown_figures(found["folder"])
         found["figures"] = {figure["name"]: figure for figure in drawn_figures}
         found["kept"] = kept((), drawn_figures, ())
+        study = read_study(found["folder"])
+        found["body"], found["end"] = body_of_bound(study), lengths(study)["end"]
     return found
 
 

@@ -13,9 +13,9 @@ from upswing.agents.policy import Rule
 from upswing.physics import tasks
 from upswing.physics.environment import State, Trajectory
 from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.physics.pendulum import body_of as body_of
 from upswing.physics.tasks import Task
 from upswing.runs import loop
-from upswing.study.physical import PendulumOptions
 from upswing.study.spec import Spec
 
 REWARD_SCALES = {"half_turn": 4.0, "radians": 1.0, "degrees": (180 / np.pi) ** 2}
@@ -55,17 +55,10 @@ class Setting:
         )  # fmt: skip
 
 
-def body_of(options: PendulumOptions, orientation: float = FROM_UPRIGHT) -> Pendulum:
-    """The pendulum of a task."""
-    return Pendulum(
-        mass=float(options.mass),
-        length=float(options.length),
-        gravity=float(options.gravity),
-        friction=float(options.friction),
-        time_step=float(options.time_step),
-        orientation=orientation,
-        accelerations=tuple(map(float, options.accelerations)),
-    )
+def body_of_run(spec: Spec) -> Pendulum:
+    """The pendulum of a run, with φ measured from where its readings say (R1)."""
+    upright = spec.readings.zero_of_angle == "upright"
+    return body_of(spec.task.pendulum, FROM_UPRIGHT if upright else FROM_HANGING)
 
 
 def prepare(spec: Spec, seed: int) -> Setting:
@@ -73,8 +66,7 @@ def prepare(spec: Spec, seed: int) -> Setting:
     readings, settings = spec.readings, spec.architecture
     options = settings.model_dump()
     actions, starts, weights, _, decisions = streams(seed)
-    upright = readings.zero_of_angle == "upright"  # R1
-    body = body_of(spec.task.pendulum, FROM_UPRIGHT if upright else FROM_HANGING)
+    body = body_of_run(spec)
     task = tasks.create(spec.task.kind, readings, spec.task.model_dump())
     encoder = features.create(
         settings.coding, features.Plan(task, options, readings, spec.task.tiles)
