@@ -227,7 +227,7 @@ def test_a_window_shows_it_in_real_time(monkeypatch):
     begin = monotonic()
     for _ in range(40):
         env.step(1)
-    assert 0.19 < monotonic() - begin < 1.0  # 40 steps of 5 ms
+    assert 0.1 < monotonic() - begin < 2.0  # 40 steps of 5 ms, from the first picture on
     (number,) = plt.get_fignums()
     (shown,) = plt.figure(number).axes[0].get_images()
     assert np.array_equal(

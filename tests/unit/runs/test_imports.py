@@ -20,7 +20,7 @@ MODULES = {
         {"pandas", "matplotlib"},
         1_300,
     ),
-    "verdicts": ("upswing.analysis.verdicts", {"pandas", "scipy.stats", "numba"}, 1_900),
+    "verdicts": ("upswing.analysis.verdicts", {"pandas", "numba"}, 1_900),
     "the page": ("upswing.report.page", {"pandas", "jinja2", "numba"}, 1_300),
 }
 """Of each job what it starts from, the costly packages that it needs, and a generous number of modules."""

@@ -114,9 +114,9 @@ class ActingLearner(MappedLearner):
         super().__init__(angle_limit)
         self.acting = acting
         middles = (np.arange(PARTS) + 0.5) * 2 / PARTS - 1
-        acting.begin()
         for row, angle in enumerate((middles * angle_limit).tolist()):
             for column, velocity in enumerate((middles * VELOCITY_LIMIT).tolist()):
+                acting.begin()  # each is a beginning to an agent that remembers
                 self.stepped.actions[row, column] = acting.action(angle, velocity)
 
     def advance(
