@@ -21,7 +21,7 @@ TINY = {
     "architectures": {"table": {"learner": "table"}},
     "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [1, 0.5]}],
 }
-FOLLOWS = {"tables", "verdicts", "comparison", "figure", "viewer", "report"}
+FOLLOWS = {"tables", "verdicts", "history", "comparison", "figure", "viewer", "report"}
 RUN = "balancing/table/alpha-1/seed-0"
 WINDOWS = f"results/runs/{RUN}.windows.parquet"
 FORGOTTEN = "There is no record of how"

@@ -4,6 +4,12 @@ from typing import Any
 
 GRID = "#DDDDDD"
 
+SMALL = 7.0
+"""Size of what is written beside dots and on the picture [pt]."""
+
+MUTED = "#555555"
+"""What is there, but not to be seen first: ticks, thresholds."""
+
 APPEARANCE: Any = {
     "font.size": 8,
     "axes.titlesize": 8,

@@ -11,7 +11,7 @@ ORDERED_BY_FALLS = (
 )
 ENSEMBLE = "thin lines are single runs, the thick line their median"
 ANGLE_HISTOGRAM = (
-    "where the pendulum was: the darker, the more of its steps at that angle at that time"
+    "where the pendulum was: the stronger the colour, the more of its steps at that angle and time"
 )
 ORDERED_BY_UPRIGHT = (
     "The worst, the median and the best run by their share of upright steps, |φ| ≤ 20°, in the last "

@@ -13,9 +13,9 @@ from matplotlib.ticker import NullLocator
 from upswing.analysis.colours import colour, of_text
 from upswing.analysis.strips import ends
 from upswing.figures import interaction
+from upswing.figures.appearance import MUTED, SMALL
 from upswing.figures.decided import Decided, Row
 from upswing.figures.measures import AxisOf, axis_of, threshold_of
-from upswing.figures.style import MUTED, SMALL
 from upswing.runs.results import Results
 from upswing.study.ids import CellId
 

@@ -9,12 +9,12 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from upswing.analysis.colours import colour
+from upswing.figures.appearance import SMALL
 from upswing.figures.interaction import Alone, Curves, remember
 from upswing.figures.labels import angle_axis
 from upswing.figures.labels import label_ends as label_ends
 from upswing.figures.labels import steps_axis as steps_axis
 from upswing.figures.phases import Phase, longest_within, phases
-from upswing.figures.style import SMALL
 from upswing.runs.files.trajectory import THINNED, WHOLE_AT_START
 from upswing.runs.results import Ensemble, OneRun, Real
 

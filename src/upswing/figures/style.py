@@ -33,12 +33,6 @@ TALLEST = 10.3
 AXIS = 0.3
 """Height of what stands below a panel [inch]."""
 
-SMALL = 7.0
-"""Size of what is written beside dots and on the picture [pt]."""
-
-MUTED = "#555555"
-"""What is there, but not to be seen first: ticks, thresholds."""
-
 plt.rcParams.update(APPEARANCE)
 
 

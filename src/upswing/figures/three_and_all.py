@@ -7,9 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from upswing.figures import decisive, panels
+from upswing.figures.appearance import SMALL
 from upswing.figures.decided import Decided, decided
 from upswing.figures.phases import WORDS
-from upswing.figures.style import LOW, SMALL, stacks_and_panels
+from upswing.figures.style import LOW, stacks_and_panels
 from upswing.runs.results import OneRun, Results
 from upswing.runs.success import succeeds
 from upswing.study.claims import Claim

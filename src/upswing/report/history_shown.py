@@ -63,7 +63,7 @@ def _shown(entry: Listed) -> ShownEntry:
         (runs.new, "new runs"),
         (runs.changed, "runs with other steps"),
         (runs.gone, "runs gone"),
-        (entry.changed_cells, "cells that differ"),
+        (entry.changed_cells, "cells not the same"),
     )
     return ShownEntry(
         number=entry.number,

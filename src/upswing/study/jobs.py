@@ -58,11 +58,22 @@ def page(figures: Iterable[str]) -> Code:
 
 
 TABLES = Code(("upswing.analysis.aggregate", "upswing.runs.adopted"), ())
-VERDICTS = Code(("upswing.analysis.verdicts", "upswing.analysis.robustness.shipped"), ("scipy",))
+VERDICTS = Code(
+    (
+        "upswing.analysis.verdicts", "upswing.analysis.contraction",
+        "upswing.analysis.robustness.shipped",
+    ),
+    ("scipy",),
+)  # fmt: skip
 HISTORY = Code(("upswing.analysis.history.write",), ())
 CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
 READINGS = Code(
-    ("upswing.analysis.robustness.write", "upswing.figures.readings"), ("scipy", "matplotlib")
+    (
+        "upswing.analysis.robustness.write",
+        "upswing.analysis.contraction",
+        "upswing.figures.readings",
+    ),
+    ("scipy", "matplotlib"),
 )
 FINALISTS = Code(("upswing.analysis.robustness.selection", "upswing.runs.study_file"), ())
 COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk", "scipy"))

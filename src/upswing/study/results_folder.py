@@ -10,8 +10,8 @@ from upswing.study.errors import BadInput, shown
 from upswing.study.paths import STUDY
 
 OURS = (
-    "adopted", "benchmarks", "checksums", "figures", "history", "logs", "readings", "recordings", "report", "runs",
-    "study.json", "tables", "README.md", ".kept", ".gitignore", ".gitkeep",
+    "adopted", "benchmarks", "checksums", "figures", "history", "logs", "readings", "recordings",
+    "report", "runs", "study.json", "tables", "README.md", ".kept", ".gitignore", ".gitkeep",
 )  # fmt: skip
 """What a study leaves in its folder, or the project has put there."""
 

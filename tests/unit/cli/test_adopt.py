@@ -49,7 +49,10 @@ def test_name_seeds_and_folder_can_be_given_and_tables_come_with_the_study(folde
         (["My_Agent.py:policy", "--task", "balance"], "task: balance: no task of results"),
         (["My_Agent.py", "--task", "balancing"], "agent: My_Agent.py: must be file.py:function"),
         (["My_Agent.py:polcy", "--task", "balancing"], "did you mean 'policy'?"),
-        (["My_Agent.py:policy", "--task", "balancing", "--seed", "-1"], "greater than or equal to 0"),
+        (
+            ["My_Agent.py:policy", "--task", "balancing", "--seed", "-1"],
+            "greater than or equal to 0",
+        ),
         (["My_Agent.py:policy", "--task", "balancing", "--name", "table"], "name: table: is an"),
         (["My_Agent.py:policy", "--task", "balancing", "--results", "lost"], "lost/study.json"),
     ],

@@ -13,7 +13,7 @@ from upswing.study.ids import file_of
 WITHOUT = {"check", "schema", "keys"}
 """What neither reads nor writes a folder of results."""
 
-OPTION_ONLY = {"train", "study", "shortest", "browse", "watch", "play", "site"}
+OPTION_ONLY = {"train", "study", "shortest", "browse", "watch", "play", "site", "adopt"}
 """What took the folder only as an option before, because its arguments are others."""
 
 READERS = [

@@ -51,5 +51,9 @@ def test_networks_depend_where_a_grade_says_so():
         verdict("C14", None, float("nan")),
     ]
     (found,) = findings({}, rows)
-    assert (found.number, found.claim, found.certainty) == ("1 of 2", "C5", "Probabilities over readings: C5 0.43")
+    assert (found.number, found.claim, found.certainty) == (
+        "1 of 2",
+        "C5",
+        "Probabilities over readings: C5 0.43",
+    )
     assert findings({}, rows[1:]) == []

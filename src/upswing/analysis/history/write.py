@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -60,7 +60,8 @@ def write_entry(results: Path, note: str = "") -> Written:
         write_list(results)
         return Written(last, new=False)
     now = datetime.now(UTC).replace(microsecond=0)
-    name = f"{now:%Y%m%d-%H%M%S}-{of[:6]}"
+    while (results / places.folder_of(name := f"{now:%Y%m%d-%H%M%S}-{of[:6]}")).exists():
+        now += timedelta(seconds=1)  # there and back again within a second
     difference, text = patch() if provenance().dirty else (b"", True)
     found = provenance()
     entry = Entry(

@@ -40,7 +40,7 @@ def print_entries(entries: "Sequence[Listed]", damaged: Sequence[str], results: 
         )
     for problem in damaged:
         say(f"{problem}; `upswing doctor {results}` says more", INDENT)
-    count = f"{len(newest_first)} entries" if len(newest_first) != 1 else "1 entry"
+    count = "1 entry" if len(newest_first) == 1 else f"{len(newest_first)} entries"
     say(
         f"{results}: {count}{'' if newest_first or damaged else '; a study that has run leaves one'}"
     )
@@ -70,7 +70,7 @@ def _changes(entry: "Entry", most: int | None, *, deleted: bool = False) -> list
         shown.append(f"… and {more} keys more (`upswing history show @{entry.number}`)")
     runs = entry.runs
     counts = [
-        f"{count:,} runs {word}"
+        f"{_counted(count, 'run')} {word}"
         for count, word in (
             (runs.new, "new"),
             (runs.changed, "with other steps"),
@@ -79,12 +79,16 @@ def _changes(entry: "Entry", most: int | None, *, deleted: bool = False) -> list
         if count
     ]
     if entry.changed_cells:
-        counts.append(f"{entry.changed_cells} cells differ")
+        counts.append(f"{_counted(entry.changed_cells, 'cell')} not the same")
     if not keys:
         counts.insert(0, "the configuration is the same")
     verdicts = [f"{row.what}: {row.before} → {row.after}" for row in entry.changed_verdicts]
     against = [f"against {entry.before}, which was deleted:"] if deleted else []
     return [*against, *shown, *([", ".join(counts)] if counts else []), *verdicts]
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
 def print_entry(entry: "Listed", side: "Side", results: Path) -> None:
