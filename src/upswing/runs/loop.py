@@ -70,9 +70,7 @@ def learn(
             t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
             next_place, taken.fell, taken.terminal,
         )  # fmt: skip
-        td_error = (
-            learn_from(algorithm, encoder, learner, rule, td_errors, step) if learns else nan
-        )
+        td_error = learn_from(algorithm, encoder, learner, rule, td_errors, step) if learns else nan
         record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
 
         # s ← s′

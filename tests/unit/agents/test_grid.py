@@ -95,6 +95,6 @@ def test_a_balancing_module_has_the_tiles_of_the_balancing_task():
 
 
 def test_a_tile_includes_its_lower_edge():
-    tiles = Tiles(4, 2.0, 20, 20.0, 2, False)
+    tiles = Tiles(4, 2.0, 20, 20.0, 0.5, 2, False)
     assert locate(tiles, 0.0, 0.0) == Place(0, (2 * 20 + 10,))
     assert locate(tiles, -1e-9, -1e-9) == Place(0, (1 * 20 + 9,))

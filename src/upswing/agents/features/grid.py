@@ -44,6 +44,7 @@ class Tiles(NamedTuple):
     angle_limit: float  # [rad]; beyond it the edge tile serves
     velocity_parts: int  # parts of φ̇ over ± velocity_limit
     velocity_limit: float  # [rad/s]; beyond it the edge tile serves (R15)
+    parts_per_velocity: float  # [s/rad]: a product takes less of a step than a quotient
     horizon: int  # parts of φ between upright and horizontal
     modular: bool
 
@@ -89,6 +90,7 @@ def tiles_for(
     limit = limit if options.angle_limit is None else radians(options.angle_limit)
     return Tiles(
         parts, limit, options.velocity_parts, float(options.velocity_limit),
+        parts_per_velocity=options.velocity_parts / (2 * float(options.velocity_limit)),
         horizon=round(HORIZONTAL / (2 * limit / parts)), modular=modular,
     )  # fmt: skip
 
@@ -97,7 +99,8 @@ def tiles_for(
 def _locate(tiles: Tiles, angle: float, angular_velocity: float) -> Place:
     """A tile includes its lower edge, not its upper."""
     row = part(angle, tiles.angle_limit, tiles.angle_parts)
-    column = part(angular_velocity, tiles.velocity_limit, tiles.velocity_parts)
+    across = floor((angular_velocity + tiles.velocity_limit) * tiles.parts_per_velocity)
+    column = int(min(max(across, 0), tiles.velocity_parts - 1))
     if not tiles.modular:
         return Place(0, (row * tiles.velocity_parts + column,))
     middle = tiles.angle_parts // 2
