@@ -5,7 +5,7 @@ import numpy as np
 from upswing.agents.policy import epsilon_greedy
 from upswing.physics.environment import State, move
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, create, fallen, reward, start
+from upswing.physics.tasks import create, fallen, reward, start
 from upswing.runs.simulation import REWARD_SCALES, streams
 from upswing.study.readings import Readings
 
@@ -34,8 +34,8 @@ class World:
 
     def act(self, action):
         """r, the tile of s′, whether it fell; s′ is the start of a new episode then."""
-        after = move(Pendulum(), self.task, self.state, ACCELERATIONS[action])
-        fell = fallen(self.task, after.angle)
+        after = move(Pendulum(), self.task, self.state, Pendulum().accelerations[action])
+        fell = fallen(self.task, after.angle, after.cart_position)
         seen = self.tile(after)
         r = SCALE * reward(after.angle)
         self.state = after

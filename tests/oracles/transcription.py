@@ -14,13 +14,12 @@ from scipy.special import expit
 from upswing.physics.elementary import sine_and_cosine
 from upswing.study.spec import Spec
 
-ACTIONS = (-10.0, 0.0, 10.0)
 SCALE = {"half_turn": 2.0, "radians": 1.0, "degrees": 180 / np.pi}
 
 
 def transcribe(spec: Spec, seed: int, learned: dict[str, NDArray[Any]]) -> dict[str, list[Any]]:
     """A run of ``spec`` that begins with ``learned``, which is changed; columns by name."""
-    readings, kind = spec.readings, spec.task.kind
+    readings, kind, pushes = spec.readings, spec.task.kind, spec.task.pendulum.accelerations
     modular = spec.architecture.is_modular
     streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
     q_of = (
@@ -47,12 +46,12 @@ def transcribe(spec: Spec, seed: int, learned: dict[str, NDArray[Any]]) -> dict[
         q = q_of(module, tile)
         u = streams[0].random()
         if u < epsilon:
-            action = int(u / epsilon * 3)
+            action = int(u / epsilon * len(pushes))
         else:
             best = np.flatnonzero(q == q.max())
             pick = int((u - epsilon) / (1 - epsilon) * len(best)) if epsilon < 1 else 0
             action = int(best[pick if readings.ties == "random" else 0])
-        new_angle, new_velocity = move(spec, angle, velocity, ACTIONS[action])
+        new_angle, new_velocity = move(spec, angle, velocity, pushes[action])
         if kind == "full-control" and readings.wrap == "wrapped":
             new_angle -= 2 * np.pi if new_angle >= np.pi else 0
             new_angle += 2 * np.pi if new_angle < -np.pi else 0
@@ -95,7 +94,8 @@ def begin(spec: Spec, starts: np.random.Generator) -> tuple[float, float]:
 
 def move(spec: Spec, angle: float, velocity: float, cart: float) -> tuple[float, float]:
     """Equations 13–23 with the constants of §4.2.2."""
-    m, length, dt, g, friction = 0.1, 0.2, 0.005, 9.81, 0.001
+    own = spec.task.pendulum
+    m, length, dt, g, friction = own.mass, own.length, own.time_step, own.gravity, own.friction
     sign = -1 if spec.readings.zero_of_angle == "hanging" else 1
     # The last digit decides where a long run goes; test_elementary.py holds it against the C library.
     sine, cosine = sine_and_cosine(angle)
@@ -165,7 +165,12 @@ class Networks:
         return weights.T if k == 0 else weights  # a view: learning changes what was given
 
     def __call__(self, module: int, tile: int) -> NDArray[Any]:
-        return np.array([self.layers(module, tile, action)[-1][0] for action in range(3)])
+        return np.array(
+            [
+                self.layers(module, tile, action)[-1][0]
+                for action in range(self.learned["weights.0"].shape[1])
+            ]
+        )
 
     def learn(self, module: int, tile: int, action: int, error: float) -> None:
         assert self.spec.alpha is not None

@@ -7,12 +7,18 @@ import sys
 import pandas as pd
 import pytest
 import yaml
+from safetensors.numpy import load_file
 
 from tests.paths import ROOT
 from tests.workflow.small_study import BIN, Edited
+from upswing.figures.phases import held
+from upswing.optimal.bound import natural_speed
+from upswing.physics.braking import highest_stoppable_speed
+from upswing.physics.pendulum import Pendulum, body_of
+from upswing.study.physical import PendulumOptions
 
 PAGES = sorted(path.stem for path in (ROOT / "docs/extend").glob("*.md") if path.stem != "index")
-PARTS = [page for page in PAGES if page != "claim"]
+PARTS = [page for page in PAGES if page not in ("claim", "pendulum")]  # which are no files
 BLOCK = re.compile(r"^```(?:python|yaml) title=\"([^\"]+)\"\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -44,7 +50,7 @@ def followed(page, folder):
 
 
 def test_there_is_a_page_for_every_kind_of_part():
-    assert PAGES == ["algorithm", "claim", "encoder", "figure", "learner", "task"]
+    assert PAGES == ["algorithm", "claim", "encoder", "figure", "learner", "pendulum", "task"]
 
 
 @pytest.mark.parametrize("page", PARTS)
@@ -122,6 +128,42 @@ def test_a_part_learns_the_same_compiled_and_as_plain_python(page, tmp_path):
     ]  # fmt: skip
     assert said[0] == said[1]
     assert said[0].endswith("True\n")
+
+
+def test_another_pendulum_is_a_few_keys(tmp_path):
+    study, new = followed("pendulum", tmp_path)
+    assert new == []
+    study.jobs("--", "results/mine/tables/runs.parquet")
+    results = tmp_path / "results/mine"
+    runs = pd.read_parquet(results / "tables/runs.parquet")
+    assert sorted(runs["task"]) == ["full-control", "full-control", "stronger", "stronger"]
+    for task, actions, parts in (("full-control", 3, 8 * 20), ("stronger", 5, 16 * 30)):
+        path = results / f"runs/{runs.loc[runs['task'] == task, 'run'].iloc[0]}"
+        trajectory = pd.read_parquet(f"{path}.trajectory.parquet")
+        assert set(trajectory["action"]) == set(range(actions))
+        assert (trajectory["cart_position"].abs().max() <= 2) == (task == "stronger")
+        assert load_file(f"{path}.weights.safetensors")["q"].shape == (1, parts, actions)
+
+
+def test_the_environment_of_the_page_is_what_it_says():
+    pytest.importorskip("gymnasium")
+    page = (ROOT / "docs/extend/pendulum.md").read_text("utf-8")
+    (program,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    told = {}
+    exec(program, told)  # noqa: S102  our own page
+    assert str(told["env"].action_space) == "Discrete(5)"
+    assert told["env"].unwrapped.task.track.limit == 2.0
+
+
+def test_the_numbers_of_the_page_are_those_of_its_pendulum():
+    page = (ROOT / "docs/extend/pendulum.md").read_text("utf-8")
+    tasks = yaml.safe_load(blocks("pendulum")["config/mine.yaml"])["tasks"]
+    body = body_of(PendulumOptions(**tasks["stronger"]["pendulum"]))
+    assert f"{highest_stoppable_speed(body):.1f} rad/s\n  here" in page
+    assert f"{highest_stoppable_speed(Pendulum()):.1f} rad/s for the thesis's" in page
+    assert f"{held(body)[0]:.0f}° from upright here and {held(Pendulum())[0]:.0f}°" in page
+    scaled = 20 * natural_speed(body) / natural_speed(Pendulum())
+    assert tasks["stronger"]["tiles"]["velocity_limit"] == round(scaled)
 
 
 def test_a_claim_is_one_entry(tmp_path):

@@ -12,9 +12,10 @@ rule bound:
     benchmark:
         f"{RESULTS}/benchmarks/bound.tsv"
     params:
+        pendulum=lambda wildcards: pendulum_of_bound(STUDY).model_dump_json(),
         code=jobs.bound().fingerprint,
     shell:
-        "upswing bound {RESULTS:q} > {log:q} 2>&1"
+        "upswing bound {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
 
 
 rule changes:

@@ -34,6 +34,7 @@ from upswing.runs.study_file import canonical
 from upswing.study import jobs
 from upswing.study.check import asked
 from upswing.study.claims import canonical_claims
+from upswing.study.config import pendulum_of_bound
 from upswing.study.errors import BadInput
 from upswing.study.ids import KNOWN_FILE
 from upswing.study.matrix import canonical_search

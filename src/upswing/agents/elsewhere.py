@@ -8,7 +8,7 @@ import ast
 import importlib
 import inspect
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import packages_distributions, version
@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
+from upswing.physics.actions import indices, pushes
 from upswing.physics.observation import Observation, observed
-from upswing.physics.tasks import ACTIONS
 from upswing.study.errors import BadInput, near
 
 FORMS = "file.py:function or module:function"
@@ -54,10 +54,10 @@ class Agent:
 
 
 class Acting:
-    """An agent in a run."""
+    """An agent in a run, whose actions are these accelerations of the cart [m/s²]."""
 
-    def __init__(self, agent: Agent, seed: int) -> None:
-        self.agent = agent
+    def __init__(self, agent: Agent, seed: int, accelerations: Sequence[float]) -> None:
+        self.agent, self.accelerations = agent, accelerations
         self._policy = _guarded(agent, "made for a seed", lambda: agent.make(seed))
         if not callable(self._policy):
             raise AgentFailed(f"{agent.name}: made for a seed: {self._policy!r} is no function")
@@ -78,11 +78,12 @@ class Acting:
         answer = _guarded(self.agent, at, lambda: self._policy(observation))
         if type(answer) is not int and isinstance(answer, np.ndarray | np.integer):
             answer = answer.item() if answer.size == 1 else answer
-        if type(answer) is not int or not 0 <= answer < ACTIONS:
+        count = len(self.accelerations)
+        if type(answer) is not int or not 0 <= answer < count:
             said = " ".join(repr(answer).split())[:60]
             raise AgentFailed(
-                f"{self.agent.name}: {at}: answers {said}: must be 0, 1 or 2, "
-                "an index into −10, 0 and +10 m/s²"
+                f"{self.agent.name}: {at}: answers {said}: must be {indices(count)}, "
+                f"an index into {pushes(self.accelerations)} m/s²"
             )
         return answer
 

@@ -3,10 +3,9 @@
 from typing import NamedTuple
 
 from upswing.physics.jit import compiled, inlined
-from upswing.physics.tasks import ACTIONS
 
-Q = tuple[float, float, float]
-"""One value for each of the three actions."""
+Q = tuple[float, ...]
+"""One value for each action; how many there are is known when the loop is compiled."""
 
 
 class Rule(NamedTuple):
@@ -27,9 +26,9 @@ def explores(draw: float, epsilon: float) -> bool:
 
 
 @inlined
-def explored_action(draw: float, epsilon: float) -> int:
-    """The random action that a ``draw`` below ``epsilon`` says."""
-    return min(int(draw / epsilon * ACTIONS), ACTIONS - 1)
+def explored_action(draw: float, epsilon: float, actions: int) -> int:
+    """The random action, of so many, that a ``draw`` below ``epsilon`` says."""
+    return min(int(draw / epsilon * actions), actions - 1)
 
 
 @compiled
@@ -40,10 +39,10 @@ def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
     equal ones (R6). So every step of every run uses exactly one, and runs of one seed stay paired.
     """
     if explores(draw, epsilon):
-        return explored_action(draw, epsilon)
+        return explored_action(draw, epsilon, len(q))
     best = 0
     equals = 1
-    for action in range(1, ACTIONS):
+    for action in range(1, len(q)):
         if q[action] > q[best]:
             best, equals = action, 1
         elif q[action] == q[best]:
@@ -51,7 +50,7 @@ def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
     if equals == 1 or not random_ties:
         return best
     chosen = int((draw - epsilon) / (1.0 - epsilon) * equals)
-    for action in range(best, ACTIONS):
+    for action in range(best, len(q)):
         if q[action] == q[best]:
             if chosen == 0:
                 return action

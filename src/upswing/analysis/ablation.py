@@ -1,5 +1,6 @@
 """What each change buys: a row for every cell of an experiment that has a title."""
 
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from upswing.runs.files.tables import write_table
 from upswing.runs.files.typed_table import read_table
 from upswing.runs.results import Results
 from upswing.runs.success import succeeds
+from upswing.study.config import pendulum_of_bound
 from upswing.study.errors import BadInput
 from upswing.study.matrix import cells_of
 from upswing.study.paths import BOUND, CHANGES
@@ -49,6 +51,9 @@ def changes(results: Results) -> pd.DataFrame:
 
 def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any]:
     runs, task, horizon = results.counted(spec.cell), spec.task, float(spec.task.steps)
+    # The bound is that of one pendulum; of another nothing is known.
+    solved = pendulum_of_bound(results.study)
+    possible = bound["upright_share"] if task.pendulum == solved else nan
     success = succeeds(runs, task)
     rate = statistics.share(int(success.sum()), len(success))
     upright = statistics.mean(runs["upright_share"].to_numpy(float))
@@ -80,9 +85,9 @@ def _row(results: Results, spec: Spec, bound: dict[str, float]) -> dict[str, Any
         "stable_high": latest,
         "nanoseconds": float((runs["seconds"] / runs["steps"]).median() * 1e9),
         "upright": upright.value,
-        "missing": bound["upright_share"] - upright.value,
-        "missing_low": bound["upright_share"] - upright.high,
-        "missing_high": bound["upright_share"] - upright.low,
+        "missing": possible - upright.value,
+        "missing_low": possible - upright.high,
+        "missing_high": possible - upright.low,
         "cost": -float(runs["mean_reward"].mean()),
         "median_run": results.three_of(spec.cell).iloc[1]["run"],
     }

@@ -7,7 +7,6 @@ from upswing.agents.features import Place
 from upswing.agents.learners import Array, update, values
 from upswing.agents.learners.table import Table
 from upswing.physics.jit import compiled
-from upswing.physics.tasks import ACTIONS
 
 PROBLEMS = 300
 STATES = 12
@@ -16,6 +15,9 @@ INTERVALS = 30
 
 DISCOUNT = 0.7
 """γ, as in the rest of the thesis (§4.5.1)."""
+
+ACTIONS = 3
+"""As many as the thesis has (§4.4)."""
 
 ROUNDING = 1e-12
 """Errors below this are rounding [unit of the reward]."""
@@ -33,7 +35,7 @@ def contracts(problem: int) -> bool:
     following = rng.integers(STATES, size=(STATES, ACTIONS))
     rewards = rng.normal(size=(STATES, ACTIONS))
     best = best_values(following, rewards, DISCOUNT)
-    table = Table(rng.normal(size=(1, STATES, ACTIONS)))
+    table = Table(rng.normal(size=(1, STATES, ACTIONS)), (0.0,) * ACTIONS)
     error = np.abs(table.q[0] - best).max()
     for _ in range(INTERVALS):
         full_interval(table, following, rewards, DISCOUNT, rng.permutation(STATES * ACTIONS))

@@ -25,6 +25,7 @@ def specified(
     epsilon: float | None = None,
     discount: float | None = None,
     readings: Mapping[str, Any] | None = None,
+    pendulum: Mapping[str, Any] | None = None,
 ) -> Spec:
     """The specification of a run.
 
@@ -39,11 +40,14 @@ def specified(
         epsilon: ε in place of the configuration's and the architecture's.
         discount: γ likewise.
         readings: readings in place of the configuration's, by their keys.
+        pendulum: what moves, in place of the task's, by the keys of a task's ``pendulum``.
 
     Raises:
         BadInput: something is not known or does not go together.
     """
     task_name, of_task = _part(base, "tasks", task)
+    if pendulum is not None:
+        of_task["pendulum"] = {**of_task.get("pendulum", {}), **pendulum}
     name, of_architecture = _part(base, "architectures", architecture)
     own = {"epsilon": epsilon, "discount": discount}
     content: dict[str, Any] = {

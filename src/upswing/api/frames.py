@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
-from upswing.physics.tasks import ACCELERATIONS
+from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.trajectory import SCHEMA, WINDOW_COUNTS
 from upswing.study.measured import Windows
 
@@ -45,16 +45,16 @@ def of_windows(windows: Windows) -> pd.DataFrame:
     return with_units(pd.DataFrame(columns), UNITS_OF_WINDOWS)
 
 
-def of_simulation(trajectory: Trajectory, time_step: float) -> pd.DataFrame:
-    """Every step of a policy that was followed; ``time_step`` [s]."""
+def of_simulation(trajectory: Trajectory, body: Pendulum) -> pd.DataFrame:
+    """Every step of a policy that was followed with ``body``."""
     steps = np.arange(len(trajectory.angle))
     state = ("angle", "angular_velocity", "cart_position", "cart_velocity")
     frame = pd.DataFrame(
         {
             "step": steps,
-            "time": steps * time_step,
+            "time": steps * body.time_step,
             **{name: getattr(trajectory, name) for name in state},
-            "acceleration": np.array(ACCELERATIONS)[trajectory.action],
+            "acceleration": np.array(body.accelerations)[trajectory.action],
             "reward": trajectory.reward,
             "reset": trajectory.reset,
         }

@@ -11,12 +11,11 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from PIL import Image
 
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.figures import panels
 from upswing.figures.appearance import APPEARANCE
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.physics.actions import signed
 from upswing.runs.files.trajectory import WHOLE_AT_START
-from upswing.runs.recording.axes import ACTION_COLOURS, UNDECIDED_COLOUR
+from upswing.runs.recording.actions import UNDECIDED_COLOUR, action_colours
 from upswing.runs.results import Ensemble, OneRun, Results
 from upswing.study.ids import CellId
 
@@ -32,6 +31,9 @@ STATES = (181, 121)
 
 COLOURS = 64
 """Of a picture in a notebook."""
+
+NAMED = 11
+"""Of more actions than these, only some are named beside the map."""
 
 WHOLE_TURN = 180
 """The largest angle of a task that has no end of it [°]."""
@@ -101,24 +103,27 @@ def of_policy(axes: Axes, policy: "Policy") -> None:
     """Which acceleration is chosen in which state; grey where several are worth the same."""
     limit = policy.spec.task.angle_limit
     angles = np.linspace(-np.radians(limit), np.radians(limit), STATES[0])
-    velocities = np.linspace(-VELOCITY_LIMIT, VELOCITY_LIMIT, STATES[1])
+    fastest = policy.learned.setting.encoder.picture.velocity_limit
+    velocities = np.linspace(-fastest, fastest, STATES[1])
+    accelerations, actions = policy.accelerations, len(policy.accelerations)
     q = np.nan_to_num(policy.values(angles[None, :], velocities[:, None]), neginf=-np.inf)
     equals = (q == q.max(axis=-1, keepdims=True)).sum(axis=-1) > 1
-    chosen = np.where(equals, ACTIONS, q.argmax(axis=-1))
-    colours: Any = [[part / 255 for part in shade] for shade in (*ACTION_COLOURS, UNDECIDED_COLOUR)]
+    chosen = np.where(equals, actions, q.argmax(axis=-1))
+    shades = (*action_colours(accelerations), UNDECIDED_COLOUR)
+    colours: Any = [[part / 255 for part in shade] for shade in shades]
     image = axes.imshow(
-        chosen, cmap=ListedColormap(colours), vmin=-0.5, vmax=ACTIONS + 0.5, origin="lower",
+        chosen, cmap=ListedColormap(colours), vmin=-0.5, vmax=actions + 0.5, origin="lower",
         aspect="auto", interpolation="nearest",
-        extent=(-limit, limit, -VELOCITY_LIMIT, VELOCITY_LIMIT),
+        extent=(-limit, limit, -fastest, fastest),
     )  # fmt: skip
     axes.grid(visible=False)
     axes.set(xticks=np.linspace(-limit, limit, 5), title="What it learned to do [m/s²]")
     axes.set(xlabel="angle φ [°]", ylabel="φ̇ [rad/s]")
     figure = axes.get_figure(root=True)
     assert figure is not None  # noqa: S101
-    scale = figure.colorbar(image, ax=axes, ticks=range(ACTIONS + 1))
-    names = [f"{ẍ:+.0f}".replace("-", "−") if ẍ else "0" for ẍ in ACCELERATIONS]
-    scale.ax.set_yticklabels([*names, "equal"])
+    named = list(range(0, actions, -(-actions // NAMED)))
+    scale = figure.colorbar(image, ax=axes, ticks=[*named, actions])
+    scale.ax.set_yticklabels([*(signed(accelerations[each]) for each in named), "equal"])
     scale.outline.set_visible(False)
 
 

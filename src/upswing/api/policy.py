@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from upswing.api.frames import of_simulation
-from upswing.physics.tasks import ACCELERATIONS, Task
+from upswing.physics.tasks import Task
 from upswing.runs.learned import Learned, load_learned
 from upswing.study.errors import BadInput, problem
 from upswing.study.spec import Spec
@@ -43,12 +43,17 @@ class Policy:
         return self.learned.run
 
     @property
+    def accelerations(self) -> tuple[float, ...]:
+        """What each action does to the cart [m/s²], ascending: −10, 0 and +10 in the thesis."""
+        return self.learned.accelerations
+
+    @property
     def weights(self) -> Mapping[str, NDArray[Any]]:
         """What was learned by name: a table's ``q`` (modules, tiles, actions), networks' weights …."""
         return {name: array.copy() for name, array in self.learned.arrays.items()}
 
     def __call__(self, angle: ArrayLike, angular_velocity: ArrayLike) -> Any:
-        """The acceleration ẍ of the cart [m/s²], −10, 0 or +10, in states φ [rad], φ̇ [rad/s].
+        """The acceleration ẍ of the cart [m/s²], one of ``accelerations``, in states φ [rad], φ̇ [rad/s].
 
         Numbers give a number; arrays of shapes that go together give an array of theirs. φ is 0
         upright (under the default reading R1); full control knows no number of turns. Where several
@@ -59,7 +64,7 @@ class Policy:
         return float(found) if found.ndim == 0 else found
 
     def values(self, angle: ArrayLike, angular_velocity: ArrayLike) -> Real:
-        """Q of the accelerations −10, 0, +10 m/s², shape (…, 3), in the unit of reading R3."""
+        """Q of each of ``accelerations``, shape (…, actions), in the unit of reading R3."""
         return self.learned.values(*_states(angle, angular_velocity))
 
     def simulate(
@@ -75,7 +80,7 @@ class Policy:
             angle: φ at the start [rad]; without, the first start of the task's evaluation, which is
                 hanging (−π) for full control and −20° for balancing.
             angular_velocity: φ̇ at the start [rad/s].
-            seconds: for how long [s], in steps of 5 ms.
+            seconds: for how long [s], in steps of the task's own.
             pushes: after how many seconds φ̇ is changed, and by how much [rad/s]: ``{5.0: 2.0}``.
 
         Returns:
@@ -87,7 +92,8 @@ class Policy:
         Raises:
             BadInput: a start that the task has not, or no time at all.
         """
-        task, time_step = self.learned.setting.task, self.learned.setting.body.time_step
+        task, body = self.learned.setting.task, self.learned.setting.body
+        time_step = body.time_step
         start = self.spec.task.greedy_starts[0] if angle is None else float(angle)
         given = pushes or {}
         if wrong := list(_wrong(task, time_step, start, angular_velocity, seconds, given)):
@@ -100,10 +106,11 @@ class Policy:
             by_step[step] = by_step.get(step, 0.0) + push
         steps = round(seconds / time_step)
         followed = self.learned.simulate(start, angular_velocity, steps, by_step)
-        return of_simulation(followed, time_step)
+        return of_simulation(followed, body)
 
     def __repr__(self) -> str:
-        return f"<policy learned by {self.run}: (φ [rad], φ̇ [rad/s]) → one of {ACCELERATIONS} m/s²>"
+        one = f"one of {self.accelerations} m/s²"
+        return f"<policy learned by {self.run}: (φ [rad], φ̇ [rad/s]) → {one}>"
 
 
 def load(path: str | PathLike[str]) -> Policy:

@@ -72,10 +72,11 @@ class Run(ABC):
     def trajectory(self) -> pd.DataFrame:
         """Its steps, a row each; the state is the one *before* the action.
 
-        ``step`` (5 ms each); ``angle`` φ [rad], 0 upright; ``angular_velocity`` φ̇ [rad/s];
-        ``cart_position`` x [m]; ``cart_velocity`` ẋ [m/s]; ``action``, an index of −10, 0, +10 m/s²;
-        ``reward`` [rad²]; ``td_error`` δ [rad²], NaN where nothing was learned; ``reset``, whether the
-        action led to a fall and so to a new start. The units stand in ``attrs["units"]``.
+        ``step``, of the task's time step, 5 ms in the thesis; ``angle`` φ [rad], 0 upright;
+        ``angular_velocity`` φ̇ [rad/s]; ``cart_position`` x [m]; ``cart_velocity`` ẋ [m/s]; ``action``,
+        an index into ``policy.accelerations``; ``reward`` [rad²]; ``td_error`` δ [rad²], NaN where
+        nothing was learned; ``reset``, whether the action led to a fall and so to a new start. The
+        units stand in ``attrs["units"]``.
 
         Of a stored run those steps that were kept: the first 5,000 and last 2,500, those around its
         first falls and its first success, and every n-th between. Of one learned here every step.
@@ -112,7 +113,7 @@ class Run(ABC):
         return self.policy.weights
 
     def values(self, angle: ArrayLike, angular_velocity: ArrayLike) -> NDArray[np.float64]:
-        """Q of the accelerations −10, 0, +10 m/s² in states φ [rad], φ̇ [rad/s]: shape (…, 3)."""
+        """Q of each of ``policy.accelerations`` in states φ [rad], φ̇ [rad/s]: shape (…, actions)."""
         return self.policy.values(angle, angular_velocity)
 
     def simulate(

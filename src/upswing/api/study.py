@@ -124,6 +124,7 @@ class Study:
         epsilon: float | None = None,
         discount: float | None = None,
         readings: Mapping[str, Any] | None = None,
+        pendulum: Mapping[str, Any] | None = None,
     ) -> Run:
         """Train a run in this process, by the names and the readings of this study.
 
@@ -131,7 +132,9 @@ class Study:
         """
         base = self.configuration.model_dump(mode="json")
         return learned_here(
-            specified(base, task, architecture, alpha, seed, steps, epsilon, discount, readings)
+            specified(
+                base, task, architecture, alpha, seed, steps, epsilon, discount, readings, pendulum
+            )
         )
 
     def _check(self, given: Mapping[str, Any]) -> None:

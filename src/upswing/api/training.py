@@ -35,6 +35,7 @@ def train(
     epsilon: float | None = None,
     discount: float | None = None,
     readings: Mapping[str, Any] | None = None,
+    pendulum: Mapping[str, Any] | None = None,
 ) -> Run:
     """Train a run in this process; nothing is written.
 
@@ -48,17 +49,19 @@ def train(
             ``{"learner": "networks", "hidden": [10]}``.
         alpha: the step size α in (0, 1]; None for a control.
         seed: of the random numbers; the thesis's study has those from 10,000 on.
-        steps: its length in place of the task's [steps of 5 ms].
+        steps: its length in place of the task's [steps].
         epsilon: the share of random actions, 0.01 without.
         discount: γ, 0.7 without.
         readings: what the thesis leaves open, by the keys of R1–R15; the defaults without.
+        pendulum: another pendulum, or other actions: ``{"length": 0.4, "accelerations": [-20, 0, 20]}``;
+            what it does not name is as the task has it.
 
     Raises:
         BadInput: something is not known or does not go together.
     """
     return learned_here(
         specified(
-            THESIS, task, architecture, alpha, seed, steps, epsilon, discount, readings
+            THESIS, task, architecture, alpha, seed, steps, epsilon, discount, readings, pendulum
         )
     )  # fmt: skip
 

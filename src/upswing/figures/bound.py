@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 FIGURE = Declaration("What is possible at all", "§2.4.2", ("C9", "C15"), tables=(BOUND, MAPS))
 THESIS, FAR_SIGHTED = "0.7", "0.97"
+SHOWN = 20.0
+"""How far φ̇ is shown for the thesis's pendulum [rad/s]; for another, as far beside what it can reach."""
+
 NEEDED = "lowest_discount_from_hanging"
 
 
@@ -23,7 +26,12 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
+    from upswing.optimal.bound import natural_speed
+    from upswing.physics.actions import signed
+    from upswing.physics.pendulum import Pendulum, body_of
     from upswing.runs.files.typed_table import read_table
+    from upswing.runs.recording.actions import action_colours
+    from upswing.study.config import pendulum_of_bound
     from upswing.study.errors import BadInput
 
     policies = {f"action_{discount}": "whole" for discount in (THESIS, FAR_SIGHTED)}
@@ -50,21 +58,25 @@ def draw(results: "Results") -> "Drawing":
     fastest.contour(angles, speeds, over("keepable"), levels=[0.5], colors="white", linewidths=1.2)
     fastest.set_title("Time to upright")
     fastest.set_ylabel("φ̇ [rad/s]")
-    colours = ("#0072B2", "#DDDDDD", "#D55E00")
+    body = body_of(pendulum_of_bound(results.study))
+    colours = ["#{:02X}{:02X}{:02X}".format(*one) for one in action_colours(body.accelerations)]
     shades = ListedColormap(colours)
+    fastest_shown = SHOWN * natural_speed(body) / natural_speed(Pendulum())
     for panel, discount in ((thesis, THESIS), (far_sighted, FAR_SIGHTED)):
         actions = over(f"action_{discount}")
-        panel.pcolormesh(angles, speeds, actions, cmap=shades, vmin=0, vmax=2, rasterized=True)
+        panel.pcolormesh(
+            angles, speeds, actions, cmap=shades, vmin=0, vmax=len(colours) - 1, rasterized=True
+        )
         panel.set_title(f"Optimal policy, γ = {discount}")
     for panel in (fastest, thesis, far_sighted):
-        panel.set(xlabel="φ [°]", xticks=(-180, -90, 0, 90), ylim=(-20, 20))
+        panel.set(xlabel="φ [°]", xticks=(-180, -90, 0, 90), ylim=(-fastest_shown, fastest_shown))
         panel.grid(visible=False)
-    names = ("−10 m/s²", "0", "+10 m/s²")
+    names = [f"{signed(one)} m/s²" if one else "0" for one in body.accelerations]
     figure.legend(
         handles=[
             Patch(color=shade, label=name) for shade, name in zip(colours, names, strict=True)
         ],
-        loc="outside lower right", ncols=3, frameon=False,
+        loc="outside lower right", ncols=min(len(names), 5), frameon=False,
     )  # fmt: skip
     needed = bound.loc[[NEEDED]].iloc[-1]  # of the finest grid
     caption = (

@@ -15,7 +15,6 @@ ENSEMBLE = "thin lines are single runs, the thick line their median"
 ANGLE_HISTOGRAM = (
     "where the pendulum was: the stronger the colour, the more of its steps at that angle and time"
 )
-STANDS = "stands at the end (is upright for 90 % of its last 100,000 steps)"
 ORDERED_BY_UPRIGHT = (
     "The worst, the median and the best run by their share of upright steps, |φ| ≤ 20°, in the last "
     "fifth (ties: mean reward, seed)"
@@ -24,11 +23,11 @@ ORDERED_BY_UPRIGHT = (
 
 def phases_named(shown: "Shown") -> str:
     """What the words on the picture mean; nothing where there are none."""
-    from upswing.figures.phases import COLUMNS, SHORTEST, WORDS
+    from upswing.figures.phases import COLUMNS, SHORTEST, meaning
 
     if not shown.phases:
         return ""
-    meant = "; ".join(WORDS[name] for name in shown.phases)
+    meant = "; ".join(meaning(name, shown.bodies) for name in shown.phases)
     least = f"{SHORTEST / COLUMNS:.0%}".replace("%", " %")
     return f" A word on the picture says what lasts for at least {least} of the run: {meant}."
 

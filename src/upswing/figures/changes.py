@@ -21,8 +21,10 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import of_text
     from upswing.figures import panels
+    from upswing.figures.lengths import in_steps
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.files.typed_table import read_table
+    from upswing.runs.metrics import STABLE_STEPS
     from upswing.study.ids import CellId
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
@@ -68,9 +70,10 @@ def draw(results: "Results") -> "Drawing":
     stable.set_xlabel("step of the first stable window (Kaplan–Meier median)")
     for axes in (success, stable):
         axes.grid(visible=False, axis="y")
+    window = in_steps(STABLE_STEPS, [results.task(cell) for cell in table["cell"]])
     caption = (
         "Full control. Left: the share of runs that stand at the end, with its 95 % "
-        "interval (Wilson). Right: when half of the runs had their first window of 5,000 steps that is "
+        f"interval (Wilson). Right: when half of the runs had their first window of {window} that is "
         "90 % upright, with its 95 % interval (Kaplan–Meier); nothing where half of them never had one."
     )
     always = int((table["success"] == 1).sum())

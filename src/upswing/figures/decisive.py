@@ -86,7 +86,8 @@ def _rows_of(decided: Decided) -> int:
 
 def _runs(axes: Axes, decided: Decided, results: Results, task: str) -> list[float]:
     """The dots; returns in which row each estimate stands."""
-    scale = axis_of(decided.part)
+    cells = {dots.cell for row in decided.rows for dots in row.dots}
+    scale = axis_of(decided.part, [results.task(cell) for cell in cells])
     many = sum(len(dots.seeds) for row in decided.rows for dots in row.dots) > DRAWN_AS_DOTS
     labels, middles, at = [], [], 0
     for row in decided.rows:

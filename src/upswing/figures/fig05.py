@@ -22,6 +22,7 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs."""
     from upswing.figures import panels, told
     from upswing.figures.captions import what_decides
+    from upswing.figures.lengths import grid_of
     from upswing.figures.success_share import share
     from upswing.figures.three_and_all import Row, three_and_all
 
@@ -37,13 +38,14 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
         for name in ("falls_2500_to_5000", "falls_last_fifth")
     )
     still = f"{found.of - found.successes} of {found.of} tables still fall in their last fifth"
-    fifth = results.task(CELL).steps // 5
+    task = results.task(CELL)
+    fifth, half = task.steps // 5, f"{task.steps_of(2_500):,}"
     caption = (
-        "Q-learning with a table of 4 × 20 tiles in the balancing task, α = 1: the first 5,000 "
-        f"steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. Right: falls of "
-        f"all {len(results.cell(CELL))} runs; {ENSEMBLE}. What to see: in the median, a table falls "
-        f"{told.times(at_first.median())} in the first 2,500 steps, {later} in the next 2,500, and "
-        f"{last} in the last {fifth:,}; {still}.{what_decides(shown)}"
+        f"Q-learning with a table of {grid_of(results.cells[CELL])} tiles in the balancing task, α = 1: "
+        f"the first 5,000 steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. "
+        f"Right: falls of all {len(results.cell(CELL))} runs; {ENSEMBLE}. What to see: in the median, a "
+        f"table falls {told.times(at_first.median())} in the first {half} steps, {later} in the "
+        f"next {half}, and {last} in the last {fifth:,}; {still}.{what_decides(shown)}"
     )
     alt = f"{still}, in the median {last}."
     return panels.Drawing(shown.figure, caption, shown.runs, alt)

@@ -23,6 +23,7 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle over 5,000 and 50,000 steps, and the falls of all runs beside the table's."""
     from upswing.figures import panels, told
     from upswing.figures.captions import what_decides
+    from upswing.figures.lengths import in_steps
     from upswing.figures.success_share import frequency, share
     from upswing.figures.three_and_all import Row, three_and_all
 
@@ -45,7 +46,8 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
         f"5,000 steps above, the whole run below. Left: the angle. {ORDERED_BY_FALLS}. Right: falls "
         f"of all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of the table "
         "with α = 1 (figure 5). What to see: in the median, networks fall "
-        f"{early[0]} in the first 5,000 steps and {late[0]} in their last fifth; the table falls "
+        f"{early[0]} in the first {in_steps(5_000, [results.task(CELL)])} and {late[0]} in their last "
+        f"fifth; the table falls "
         f"{early[1]} and {late[1]} respectively. {frequency(results, CELL)}{others}{what_decides(shown)}"
     )
     alt = f"Networks: {frequency(results, CELL)}{others}"

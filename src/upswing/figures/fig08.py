@@ -34,16 +34,17 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle, and the upright share of all runs beside that of the controls."""
     from upswing.figures import panels, told
     from upswing.figures.captions import phases_named, what_decides
+    from upswing.figures.lengths import grid_of
     from upswing.figures.success_share import frequency
     from upswing.figures.three_and_all import Row, three_and_all
 
     rows = [Row(CELL, "table")]
     shown = three_and_all(results, rows, claims, list(CONTROLS.items()))
     caption = (
-        "Q-learning with a table of 8 × 20 tiles at full control, α = 0.001. Left: "
-        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}.{phases_named(shown)} Right: the share of upright "
-        f"steps of all {len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of no "
-        f"control and of random actions. What to see: {frequency(results, CELL)} In the whole run "
+        f"Q-learning with a table of {grid_of(results.cells[CELL])} tiles at full control, α = 0.001. "
+        f"Left: {ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}.{phases_named(shown)} Right: the share of "
+        f"upright steps of all {len(results.cell(CELL))} runs; {ENSEMBLE}, dashed lines the medians of "
+        f"no control and of random actions. What to see: {frequency(results, CELL)} In the whole run "
         f"{told.stood(results, CELL)}.{_most(shown)}{what_decides(shown)}"
     )
     alt = f"With α = 0.001, {frequency(results, CELL)}{_most(shown)}"

@@ -23,6 +23,7 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     """The angle, and the upright share of all runs beside that of one table."""
     from upswing.figures import panels, told
     from upswing.figures.captions import phases_named, what_decides
+    from upswing.figures.lengths import grid_of
     from upswing.figures.success_share import frequency
     from upswing.figures.three_and_all import Row, three_and_all
 
@@ -34,10 +35,10 @@ def draw(results: "Results", claims: "Mapping[str, Claim]") -> "Drawing":
     one = told.counted(results, TABLE)
     stand = f"with two tables, {frequency(results, CELL)} With one table, {one} do."
     caption = (
-        "Modular Q-learning with two tables of 4 × 20 tiles at full control, α = 0.001. Left: "
-        f"{ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}.{phases_named(shown)} Right: the share of upright "
-        f"steps of all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line the median of one "
-        f"table (figure 8). What to see: {stand}{same}{what_decides(shown)}"
+        f"Modular Q-learning with two tables of {grid_of(results.cells[CELL])} tiles at full control, "
+        f"α = 0.001. Left: {ANGLE_HISTOGRAM}. {ORDERED_BY_UPRIGHT}.{phases_named(shown)} Right: "
+        f"the share of upright steps of all {len(results.cell(CELL))} runs; {ENSEMBLE}, the dashed line "
+        f"the median of one table (figure 8). What to see: {stand}{same}{what_decides(shown)}"
     )
     alt = f"{stand[0].upper()}{stand[1:]}{same}"
     return panels.Drawing(shown.figure, caption, shown.runs, alt)

@@ -1,6 +1,6 @@
 """What is written at the axes of panels: labels of lines, steps and angles."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from upswing.analysis.colours import of_text
+from upswing.figures.lengths import step_label
+from upswing.study.task import Task
 
 LINE = 0.14
 """Height of a label [inch]."""
@@ -41,17 +43,18 @@ def label_ends(axes: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
         )  # fmt: skip
 
 
-def steps_axis(axes: Axes, most: int = 5) -> None:
+def steps_axis(axes: Axes, tasks: Iterable[Task], most: int = 5) -> None:
     """An axis of steps, written short; its last tick stands at its end.
 
     Args:
         axes: those of the panel, with their limits.
+        tasks: those of the runs that it shows, which say how long a step is.
         most: number of parts that it may be cut into.
     """
     last = axes.get_xlim()[1]
     axes.xaxis.set_major_formatter(FuncFormatter(_short))
     axes.xaxis.set_major_locator(FixedLocator(list(np.linspace(0, last, _parts(last, most) + 1))))
-    axes.set_xlabel("step of 5 ms")
+    axes.set_xlabel(step_label(tasks))
 
 
 def _parts(last: float, most: int) -> int:

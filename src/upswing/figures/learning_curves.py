@@ -84,7 +84,7 @@ def draw(results: "Results") -> "Drawing":
                 panel.set_ylim(bottom=0)
             if shown:
                 panel.set_xlim(0, float(last[-1]))
-            panels.steps_axis(panel, 4)
+            panels.steps_axis(panel, [results.task(cell) for cell in shown], 4)
             panels.label_ends(panel, ends)
     what = ". ".join(seen)
     see = f" What to see: where the medians on the left end. {what}." if what else ""

@@ -1,8 +1,12 @@
 """What is measured of a run, as the axis of a panel."""
 
+from collections.abc import Collection
 from typing import NamedTuple
 
+from upswing.figures.lengths import in_steps
 from upswing.study.claim_parts import Part
+from upswing.study.physical import THESIS_TIME_STEP
+from upswing.study.task import Task
 
 PERCENT = 100.0
 
@@ -14,11 +18,14 @@ WORDS = {
     "falls_after_stable": "falls after the first 5,000 steps without one",
     "mean_reward": "mean reward of the last fifth [rad²]; the cost is minus it",
     "upright_share": "upright in the last fifth [%]",
-    "upright_at_end": "upright in the last 100,000 steps [%]",
+    "upright_at_end": "upright in the last {end} [%]",
     "recovered_share": "falls that it came up from in the last fifth [%]",
     "first_stable_step": "step of the first stable window",
 }
 """What an axis is called; a measure that is not here is called by its name."""
+
+IN_STEPS = ("falls_first_5000", "falls_2500_to_5000", "falls_after_stable")
+"""Measures that are about so many steps of the thesis: the same time, where a step is another."""
 
 OF_SUMS = {
     ("too_fast_last_fifth", "swing_ups_last_fifth"): "arrivals that full braking cannot stop [%]",
@@ -45,14 +52,18 @@ class Threshold(NamedTuple):
     words: str
 
 
-def axis_of(part: Part) -> AxisOf:
-    """The axis of what a part measures of each run."""
+def axis_of(part: Part, tasks: Collection[Task] = ()) -> AxisOf:
+    """The axis of what a part measures of each run, of these tasks."""
     if part.per is not None:
         pair = (str(part.measure), str(part.per))
         words = OF_SUMS.get(pair, f"{pair[0]} / {pair[1]} [%]".replace("_", " "))
         return AxisOf(words, PERCENT, (0.0, 100.0), is_count=False)
+    from upswing.runs.metrics import END
+
     name = part.measure or next(iter(part.where), "")
-    words = WORDS.get(name, name.replace("_", " "))
+    words = WORDS.get(name, name.replace("_", " ")).format(end=in_steps(END, tasks))
+    if name in IN_STEPS and any(task.pendulum.time_step != THESIS_TIME_STEP for task in tasks):
+        words += " of 5 ms"
     if part.paired:
         words = f"difference of the same seed, {words}"
     if name.endswith("_share") or name.startswith("upright_"):

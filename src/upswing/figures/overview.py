@@ -25,8 +25,10 @@ def draw(results: "Results") -> "Drawing":
     from upswing.analysis.colours import colour, of_text
     from upswing.figures import panels
     from upswing.figures.interaction import Dots, remember
+    from upswing.figures.lengths import in_steps
     from upswing.figures.style import WIDTH, subplots
     from upswing.figures.success_share import share
+    from upswing.runs.metrics import END
     from upswing.runs.success import SUCCESS
     from upswing.study.ids import CellId
 
@@ -75,15 +77,16 @@ def draw(results: "Results") -> "Drawing":
             right.set_title("Runs without a fall in the last fifth [%]")
         else:
             left.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
-            left.set_xlabel("upright in the last 100,000 steps [%]")
+            left.set_xlabel(f"upright in the last {in_steps(END, [results.task(cells[0])])} [%]")
             right.set_title(f"Runs upright for {100 * SUCCESS:.0f} % of them [%]")
         for axes in (left, right):
             axes.grid(visible=False, axis="y")
     what = "; ".join(seen)
+    end = in_steps(END, [spec.task for spec in results.cells.values()])
     caption = (
         "Each row is a cell. Left: every run as a dot, its seeds from top to bottom. Right: the share "
         "of runs that balance without a fall in their last fifth, or stand at the end (are upright for "
-        f"{100 * SUCCESS:.0f} % of their last 100,000 steps); the bar is its 95 % interval (Wilson). "
+        f"{100 * SUCCESS:.0f} % of their last {end}); the bar is its 95 % interval (Wilson). "
         f"What to see: {what}."
     )
     return panels.Drawing(figure, caption, [], f"{what[:1].upper()}{what[1:]}.")

@@ -92,7 +92,7 @@ def angle(axes: Axes, run: OneRun, cell: str, steps: int | None = None) -> None:
     begin, end = longest_within(low, high)
     if end - begin >= LONG * len(low):
         _name(axes, "stands", (begin + end) / 2 / len(low) * last, 0.6 * limit)
-    steps_axis(axes)
+    steps_axis(axes, [run.task])
 
 
 def angle_histogram(axes: Axes, run: OneRun, cell: str) -> list[Phase]:
@@ -123,10 +123,11 @@ def angle_histogram(axes: Axes, run: OneRun, cell: str) -> list[Phase]:
     axes.set(ylim=TURN, yticks=(0, 90, 180), xlim=(0, total))
     angle_axis(axes)
     axes.set_title(f"Seed {run.seed}")
-    steps_axis(axes)
+    steps_axis(axes, [run.task])
     found = phases(
-        degrees, evenly["angular_velocity"].to_numpy(float), evenly["step"].to_numpy(float) / total
-    )
+        degrees, evenly["angular_velocity"].to_numpy(float), evenly["step"].to_numpy(float) / total,
+        run.task.pendulum,
+    )  # fmt: skip
     named = _apart(found)
     for phase, (when, where) in named:
         _name(axes, phase.name, when * total, where, bbox=ON_SHADES)
@@ -165,6 +166,7 @@ def falls(
     """
     lines = [(cell, label, c.last_step, c.falls_so_far) for cell, label, c in ensembles]
     ends = _ensemble(axes, lines, steps)
+    steps_axis(axes, [one.task for _, _, one in ensembles])
     _remember(axes, ensembles, lines)
     axes.set(ylabel="falls so far", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set_ylim(bottom=0)
@@ -182,6 +184,7 @@ def upright(axes: Axes, ensembles: Sequence[tuple[str, str, Ensemble]]) -> None:
         )
         lines.append((cell, label, ensemble.last_step[group - 1 : whole : group], 100 * means))
     ends = _ensemble(axes, lines, None)
+    steps_axis(axes, [one.task for _, _, one in ensembles])
     _remember(axes, ensembles, lines)
     axes.set(ylabel="upright [% of steps]", title=f"All {len(ensembles[0][2].seeds)} runs")
     axes.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
@@ -217,7 +220,6 @@ def _ensemble(
         words = f"{label} ({lost} diverged)" if lost else label
         ends.append((float(median[-1]) if finite.any() else 0.0, words, colour(cell)))
     axes.set_xlim(0, steps or float(lines[0][2][-1]))
-    steps_axis(axes)
     return ends
 
 

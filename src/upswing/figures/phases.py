@@ -1,10 +1,14 @@
 """What the pendulum does over a run, in a word: it stands, swings, spins, runs away or hangs."""
 
+from collections.abc import Iterable
 from math import atan2, degrees, pi
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from upswing.physics.actions import listed
+from upswing.study.physical import PendulumOptions
 
 Real = NDArray[np.float64]
 
@@ -20,21 +24,15 @@ UPRIGHT, HANGING, NEAR_HELD = 20.0, 15.0, 15.0
 MOST, HALF = 0.75, 0.5
 """The share of a stretch's steps that makes it one phase; running away swings in first."""
 
-GRAVITY, LENGTH, PUSH = 9.81, 0.2, 10.0
-"""g [m/s²], l [m] (§4.2.2) and the strongest ẍ [m/s²] (§4.4); ``physics`` brings a compiler along."""
-
-HELD = degrees(pi - atan2(PUSH, GRAVITY))
-"""Where a cart that is pushed one way for ever holds the rod, from upright (eq. 13) [°]."""
-
 WORDS = {
     "stands": "it stands",
-    "runs away": f"it runs away (the cart is pushed one way for ever, which holds the rod {HELD:.0f}° "
+    "runs away": "it runs away (the cart is pushed one way for ever, which holds the rod {held} "
     "from upright)",
     "hangs": "it hangs",
     "spins": "it spins (is fast enough to turn over and over)",
     "swings": "it swings below the top",
 }
-"""What each phase means, in the order in which they are looked for."""
+"""What each phase means (``meaning``), in the order in which they are looked for."""
 
 
 class Phase(NamedTuple):
@@ -46,13 +44,30 @@ class Phase(NamedTuple):
     angle: float  # around which [°], −90 to 270; 180 for what swings and spins
 
 
-def phases(angle: Real, angular_velocity: Real, when: Real) -> list[Phase]:
+def held(body: PendulumOptions) -> tuple[float, float]:
+    """Where the strongest pushes to the right and to the left, for ever, hold the rod (eq. 13) [°].
+
+    Both are angles from upright, to the one side and to the other; that of the thesis's is 134°.
+    """
+    pushes = body.accelerations[-1], -body.accelerations[0]
+    right, left = (degrees(pi - atan2(push, body.gravity)) for push in pushes)
+    return right, left
+
+
+def meaning(name: str, bodies: Iterable[PendulumOptions]) -> str:
+    """What a phase means where these are the pendulums."""
+    angles = {f"{angle:.0f}°" for body in bodies for angle in held(body)}
+    return WORDS[name].format(held=listed(sorted(angles, key=lambda one: float(one[:-1])), "or"))
+
+
+def phases(angle: Real, angular_velocity: Real, when: Real, body: PendulumOptions) -> list[Phase]:
     """The phases of a run of full control that last for at least a twentieth of it.
 
     Args:
         angle: φ of steps that are spread evenly over the run [°], shape (steps,).
         angular_velocity: φ̇ of them [rad/s].
         when: where in the run each is, from 0 to 1.
+        body: what moves.
     """
     column = np.minimum((when * COLUMNS).astype(int), COLUMNS - 1)
     sizes = np.maximum(np.bincount(column, minlength=COLUMNS), 1)
@@ -61,12 +76,13 @@ def phases(angle: Real, angular_velocity: Real, when: Real) -> list[Phase]:
         return np.bincount(column, is_so, COLUMNS) / sizes
 
     turned = np.mod(angle + 90, 360) - 90
-    over_the_top = goes_over(turned, angular_velocity)
+    over_the_top = goes_over(turned, angular_velocity, body)
+    right, left = held(body)
     lasts: list[tuple[str, float, NDArray[np.bool_]]] = [
         ("stands", 0.0, share(np.abs(turned) <= UPRIGHT) >= MOST),
         *(
-            ("runs away", held, share(np.abs(turned - held) <= NEAR_HELD) >= HALF)
-            for held in (HELD, 360 - HELD)
+            ("runs away", at, share(np.abs(turned - at) <= NEAR_HELD) >= HALF)
+            for at in (right, 360 - left)
         ),
         ("hangs", 180.0, share(np.abs(turned - 180) <= HANGING) >= MOST),
         ("spins", 180.0, share(over_the_top) >= MOST),
@@ -82,14 +98,15 @@ def phases(angle: Real, angular_velocity: Real, when: Real) -> list[Phase]:
     return found
 
 
-def goes_over(angle: Real, angular_velocity: Real) -> NDArray[np.bool_]:
+def goes_over(angle: Real, angular_velocity: Real, body: PendulumOptions) -> NDArray[np.bool_]:
     """Whether a pendulum on a cart at rest would go over the top: its energy is above that upright.
 
     Args:
         angle: φ [°].
         angular_velocity: φ̇ [rad/s].
+        body: the pendulum.
     """
-    least = 3 * GRAVITY / LENGTH * (1 - np.cos(np.radians(angle)))
+    least = 3 * body.gravity / body.length * (1 - np.cos(np.radians(angle)))
     return np.asarray(angular_velocity**2 > least)
 
 

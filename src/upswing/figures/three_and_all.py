@@ -14,6 +14,7 @@ from upswing.figures.style import LOW, stacks_and_panels
 from upswing.runs.results import OneRun, Results
 from upswing.runs.success import succeeds
 from upswing.study.claims import Claim
+from upswing.study.physical import PendulumOptions
 
 WHOLE_TURN = 0.95
 """Height of a low panel that shows a whole turn, with its title [inch]."""
@@ -44,6 +45,7 @@ class Shown(NamedTuple):
     decided: list[Decided]
     lacking: list[str]  # claims of which the study has not all cells
     steps: dict[str, int]  # of the runs of each cell
+    bodies: list[PendulumOptions]  # of the rows
 
     def part(self, claim: str, number: int = 1) -> Decided | None:
         """A part of a claim, if the study has it."""
@@ -91,9 +93,9 @@ def three_and_all(
     steps = {cell: spec.task.steps for cell, spec in results.cells.items()}
     if below is not None:
         decisive.draw(figure, below, found, results)
-    return Shown(
-        figure, list(shown), [name for name in WORDS if name in named], found, lacking, steps
-    )
+    bodies = [results.task(row.cell).pendulum for row in rows]
+    names = [name for name in WORDS if name in named]
+    return Shown(figure, list(shown), names, found, lacking, steps, bodies)
 
 
 def _stack(results: Results, row: Row, stack: Sequence[Axes]) -> tuple[list[OneRun], set[str]]:

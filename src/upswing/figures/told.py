@@ -7,6 +7,7 @@ import pandas as pd
 
 from upswing.analysis.survival import median_time
 from upswing.figures.decided import Decided
+from upswing.figures.lengths import in_steps
 from upswing.figures.success_share import share
 from upswing.runs.results import Results
 
@@ -49,11 +50,14 @@ def one_by_one(results: Results, cells: Mapping[str, str]) -> str:
 
 def stood(results: Results, cell: str) -> str:
     """How many runs of full control were ever stable, from when on, and in the median."""
+    from upswing.runs.metrics import STABLE_STEPS
+
     runs = results.counted(cell)
     known = runs["first_stable_step"].dropna()
+    stretch = in_steps(STABLE_STEPS, [results.task(cell)])
     if not len(known):
-        return "none was ever upright for 90 % of 5,000 steps in a row"
-    words = f"{len(known)} of {len(runs)} have been upright for 90 % of 5,000 steps in a row, "
+        return f"none was ever upright for 90 % of {stretch} in a row"
+    words = f"{len(known)} of {len(runs)} have been upright for 90 % of {stretch} in a row, "
     words += f"the first of them from step {int(known.min()):,} on"
     if 2 * len(known) < len(runs):  # then half of them never were, and there is no median
         return words

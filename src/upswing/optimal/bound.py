@@ -1,6 +1,6 @@
 """The bound → ``tables/bound.parquet``, and maps of its finest grid, ``tables/bound_maps.parquet``."""
 
-from collections.abc import Sequence
+from math import hypot, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,8 @@ from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
+from upswing.runs.simulation import body_of
+from upswing.study.config import Study, pendulum_of_bound
 from upswing.study.paths import BOUND, MAPS
 
 GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
@@ -27,12 +29,15 @@ PIXELS = 200
 """Largest number of points of a map along each axis."""
 
 
-def write_bound(results: Path, grids: Sequence[Grid] | None = None) -> None:
-    """Solve every grid (``GRIDS``), follow every policy, and write both tables below ``results``."""
-    body = Pendulum()
+def write_bound(results: Path, study: Study | None = None) -> None:
+    """Solve every grid (``GRIDS``), follow every policy, and write both tables below ``results``.
+
+    The pendulum is that of the study's first task of full control, or the thesis's.
+    """
+    body = body_of(pendulum_of_bound(study)) if study else Pendulum()
     rows: list[Row] = [*exact(body)]
     solved: Solved | None = None
-    for grid in grids or GRIDS:
+    for grid in grids_for(body):
         solved = solve(body, grid, solved)
         rows += [*of_grid(solved), *thresholds(solved)]
     assert solved is not None, "there are grids"  # noqa: S101
@@ -42,12 +47,24 @@ def write_bound(results: Path, grids: Sequence[Grid] | None = None) -> None:
     seal(results, "bound", [results / BOUND, results / MAPS])
 
 
+def grids_for(body: Pendulum) -> list[Grid]:
+    """The grids, reaching as far for this pendulum as they do for the thesis's."""
+    reach = natural_speed(body) / natural_speed(Pendulum())
+    return [grid._replace(limit=reach * grid.limit) for grid in GRIDS]
+
+
+def natural_speed(body: Pendulum) -> float:
+    """What velocities go with: √(√(g² + a²)/l) for the strongest push a [rad/s]."""
+    push = max(map(abs, body.accelerations))
+    return sqrt(hypot(body.gravity, push) / body.length)
+
+
 def maps(solved: Solved) -> pd.DataFrame:
     """A row for each of some points of the grid, evenly spread.
 
     ``angle`` [rad], ``angular_velocity`` [rad/s], ``time_to_upright`` [s], ``keepable`` (above the
     horizontal), ``upright`` (within 20°), ``action_fastest``, and for each γ ``action_γ`` and
-    ``value_γ`` [rad²], for example ``action_0.7``; actions are indices into ``ACCELERATIONS``.
+    ``value_γ`` [rad²], for example ``action_0.7``; actions are indices into the body's accelerations.
     """
     grid, body = solved.grid, solved.body
     row_step = -(-grid.rows // PIXELS)

@@ -100,7 +100,7 @@ def follow(
     for t in range(1, len(angles)):
         draw = actions.random()
         if explores(draw, epsilon):
-            action = explored_action(draw, epsilon)
+            action = explored_action(draw, epsilon, len(body.accelerations))
         else:
             action = act(policy, body, angle, angular_velocity)
         angle, angular_velocity = step(body, angle, angular_velocity, action)

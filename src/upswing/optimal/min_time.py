@@ -11,7 +11,6 @@ from upswing.optimal.value_iteration import Optimal, promised
 from upswing.optimal.viability import HALF
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACTIONS
 
 TOLERANCE = 1e-4
 """A time is known when no sweep changes it by more [steps]."""
@@ -36,7 +35,8 @@ class Fastest(NamedTuple):
 def _act(policy: Fastest, body: Pendulum, angle: float, angular_velocity: float) -> int:
     holding = arrived(policy, angle, angular_velocity)
     best, action = -inf, 0
-    for candidate in range(ACTIONS):  # of equally good actions the first, as in the study (R6)
+    # Of equally good actions the first, as in the study (R6).
+    for candidate in range(len(body.accelerations)):
         next_angle, next_velocity = step(body, angle, angular_velocity, candidate)
         if not holding:
             good = -interpolate(policy.grid, policy.steps, next_angle, next_velocity)
@@ -89,7 +89,7 @@ def _sweep(columns: int, ways: Successors, target: Array, steps: Array, forwards
         point = visit if forwards else len(steps) - 1 - visit
         if target[point] < HALF:
             best = NEVER
-            for action in range(ACTIONS):
+            for action in range(ways.corner.shape[1]):
                 further = between(
                     columns,
                     steps,

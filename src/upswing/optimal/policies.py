@@ -7,7 +7,7 @@ from upswing.physics.pendulum import Pendulum
 
 
 def _act(policy: Any, body: Pendulum, angle: float, angular_velocity: float) -> int:
-    """The action, an index into ``ACCELERATIONS``, at φ [rad] in ±π and φ̇ [rad/s]."""
+    """The action, an index into the body's accelerations, at φ [rad] in ±π and φ̇ [rad/s]."""
     raise TypeError(f"{type(policy)} is no policy")
 
 

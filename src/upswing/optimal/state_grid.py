@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from upswing.physics import pendulum, tasks
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
 
 Array = NDArray[np.float64]
 
@@ -50,7 +49,7 @@ def points(grid: Grid) -> tuple[Array, Array]:
 def successors(body: Pendulum, grid: Grid) -> Successors:
     """What ``pendulum.step`` does with every point."""
     angles, velocities = points(grid)
-    shape = (len(angles), ACTIONS)
+    shape = (len(angles), len(body.accelerations))
     found = Successors(
         np.zeros(shape), np.zeros(shape, dtype=np.int32), np.zeros(shape), np.zeros(shape)
     )
@@ -101,15 +100,17 @@ def interpolate(grid: Grid, values: Array, angle: float, angular_velocity: float
 
 @compiled
 def step(body: Pendulum, angle: float, angular_velocity: float, action: int) -> tuple[float, float]:
-    """φ [rad] within one turn and φ̇ [rad/s] after a step with an action of the thesis."""
-    next_angle, next_velocity = pendulum.step(body, angle, angular_velocity, ACCELERATIONS[action])
+    """φ [rad] within one turn and φ̇ [rad/s] after a step with an action."""
+    next_angle, next_velocity = pendulum.step(
+        body, angle, angular_velocity, body.accelerations[action]
+    )
     return tasks.wrapped(next_angle), next_velocity
 
 
 @compiled
 def _fill(body: Pendulum, grid: Grid, angles: Array, velocities: Array, found: Successors) -> None:
     for point in range(len(angles)):
-        for action in range(ACTIONS):
+        for action in range(len(body.accelerations)):
             angle, velocity = step(body, angles[point], velocities[point], action)
             corner, up, across = place(grid, angle, velocity)
             found.angle[point, action] = angle

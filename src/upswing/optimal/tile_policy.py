@@ -18,7 +18,7 @@ from upswing.study.readings import Readings
 from upswing.study.task import kind_of_task
 
 Actions = NDArray[np.int8]
-"""An action for each tile, shape (tiles,), indices into ``ACCELERATIONS``."""
+"""An action for each tile, shape (tiles,), indices into the body's accelerations."""
 
 Visits = NDArray[np.int64]
 Score = tuple[float, float]

@@ -9,13 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from upswing.agents.features import locate
-from upswing.agents.features.grid import VELOCITY_LIMIT, Tiles
+from upswing.agents.features.grid import Tiles
 from upswing.optimal.policies import act
 from upswing.optimal.tile_policy import Actions, Score, Visits, score, thesis_tiles
 from upswing.physics.environment import empty_trajectory
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACTIONS
 from upswing.runs.simulation import prepare
 from upswing.study.architecture import architecture_named
 from upswing.study.readings import Readings
@@ -45,7 +44,7 @@ def search(kind: str, body: Pendulum, begun: Actions, seed: int, budget: int) ->
     Only tiles that the policy comes to are changed: the others make no difference. It ends early
     where nothing is left to gain. Never worse than ``begun``; the same for the same ``seed``.
     """
-    generator = np.random.default_rng(seed)
+    generator, actions = np.random.default_rng(seed), len(body.accelerations)
     visits: Visits = np.zeros(len(begun), dtype=np.int64)
     best = Found(begun.copy(), score(kind, body, begun, visits))
     visited = np.flatnonzero(visits)
@@ -55,7 +54,7 @@ def search(kind: str, body: Pendulum, begun: Actions, seed: int, budget: int) ->
         changed = best.actions.copy()
         count = 1 if generator.random() < 0.5 else int(generator.integers(2, TOGETHER + 1))
         for tile in generator.choice(visited, size=min(count, len(visited)), replace=False):
-            changed[tile] = (changed[tile] + generator.integers(1, ACTIONS)) % ACTIONS
+            changed[tile] = (changed[tile] + generator.integers(1, actions)) % actions
         visits[:] = 0
         scored = score(kind, body, changed, visits)
         if scored >= best.score:
@@ -66,11 +65,11 @@ def search(kind: str, body: Pendulum, begun: Actions, seed: int, budget: int) ->
 def projected(kind: str, body: Pendulum, policy: Any) -> Actions:
     """What ``policy`` does most often within each tile; of equally frequent actions the first."""
     tiles = thesis_tiles(kind)
-    votes = np.zeros((tiles.tiles, ACTIONS), dtype=np.int64)
-    rows, columns, limit = tiles.picture
+    votes = np.zeros((tiles.tiles, len(body.accelerations)), dtype=np.int64)
+    rows, columns, limit, fastest = tiles.picture
     angles = (np.arange(rows * SAMPLES) + 0.5) / (rows * SAMPLES) * 2 * limit - limit
     share = (np.arange(columns * SAMPLES) + 0.5) / (columns * SAMPLES)
-    _vote(policy, body, tiles, angles, share * 2 * VELOCITY_LIMIT - VELOCITY_LIMIT, votes)
+    _vote(policy, body, tiles, angles, share * 2 * fastest - fastest, votes)
     actions: Actions = votes.argmax(axis=1).astype(np.int8)
     return actions
 

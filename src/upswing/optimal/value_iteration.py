@@ -9,7 +9,7 @@ from upswing.optimal.policies import act_of
 from upswing.optimal.state_grid import Array, Grid, Successors, between, interpolate, step
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACTIONS, reward
+from upswing.physics.tasks import reward
 
 TOLERANCE = 1e-6
 """V is known to this [rad²]."""
@@ -36,7 +36,8 @@ def promised(
 @act_of(Optimal)
 def _act(policy: Optimal, body: Pendulum, angle: float, angular_velocity: float) -> int:
     best, action = -inf, 0
-    for candidate in range(ACTIONS):  # of equally good actions the first, as in the study (R6)
+    # Of equally good actions the first, as in the study (R6).
+    for candidate in range(len(body.accelerations)):
         value = promised(policy, body, angle, angular_velocity, candidate)
         if value > best:
             best, action = value, candidate
@@ -77,7 +78,7 @@ def _sweep(
     low, high = inf, -inf
     for point in range(len(values)):
         best = -inf
-        for action in range(ACTIONS):
+        for action in range(ways.corner.shape[1]):
             value = between(
                 columns,
                 values,

@@ -9,7 +9,7 @@ from upswing.optimal.state_grid import Array, Grid, Successors, between, interpo
 from upswing.physics.braking import highest_speed_short_of
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS, HORIZONTAL
+from upswing.physics.tasks import HORIZONTAL
 
 HALF = 0.5
 """Share of what lies between the points of a grid that has to be kept."""
@@ -41,7 +41,7 @@ def _sweep(columns: int, ways: Successors, kept: Array) -> float:
     for point in range(len(kept)):
         if kept[point] > 0:
             best = 0.0
-            for action in range(ACTIONS):
+            for action in range(ways.corner.shape[1]):
                 share = between(
                     columns,
                     kept,
@@ -74,7 +74,7 @@ def balanced_angle(body: Pendulum) -> float:
 
     A saddle, at tan φ = ẍ/g (eq. 14, 16): beyond it gravity wins, whatever the cart does.
     """
-    return atan(ACCELERATIONS[-1] / body.gravity)
+    return atan(body.accelerations[-1] / body.gravity)
 
 
 @cache

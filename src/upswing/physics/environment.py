@@ -1,14 +1,15 @@
 """The system that is learned on, one step at a time: what the loop and every other agent share."""
 
+from math import copysign
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.physics import pendulum, tasks
+from upswing.physics import pendulum, tasks, track
 from upswing.physics.jit import inlined
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, Task
+from upswing.physics.tasks import Task
 
 Column = NDArray[np.float32]
 
@@ -40,7 +41,7 @@ class Trajectory(NamedTuple):
     angular_velocity: Column  # φ̇ of s_t [rad/s]
     cart_position: Column  # x [m]
     cart_velocity: Column  # ẋ [m/s]
-    action: NDArray[np.int8]  # index into ACCELERATIONS
+    action: NDArray[np.int8]  # index into the body's accelerations
     reward: Column  # r_{t+1} [rad²]
     td_error: Column  # δ [rad²]; NaN where nothing was learned
     reset: NDArray[np.bool_]  # whether a_t led to a fall and so to a new start
@@ -73,6 +74,10 @@ def move(body: Pendulum, task: Task, state: State, acceleration: float) -> State
     cart_position, cart_velocity = pendulum.step_cart(
         body, state.cart_position, state.cart_velocity, acceleration
     )
+    if track.at_end(task.track, cart_position):
+        # The cart stops dead; the rod keeps what momentum it has about the joint.
+        angular_velocity += pendulum.jerk(body, angle, -cart_velocity)
+        cart_position, cart_velocity = copysign(task.track.limit, cart_position), 0.0
     if task.wraps:
         angle = tasks.wrapped(angle)
     return State(angle, angular_velocity, cart_position, cart_velocity)
@@ -87,10 +92,10 @@ def transition(
     action: int,
     starts: np.random.Generator,
 ) -> Transition:
-    """Take ``action``, an index into ``ACCELERATIONS``; after a fall the run starts anew."""
-    after = move(body, task, state, ACCELERATIONS[action])
+    """Take ``action``, an index into the body's accelerations; after a fall the run starts anew."""
+    after = move(body, task, state, body.accelerations[action])
     seen = after
-    fell = tasks.fallen(task, after.angle)
+    fell = tasks.fallen(task, after.angle, after.cart_position)
     if fell:
         after = State(*tasks.start(task, starts), 0.0, 0.0)
         if task.reset == tasks.RESET_START:

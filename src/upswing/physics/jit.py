@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Generic, ParamSpec, TypeVar
 
 import numba
+from numba.cpython.unsafe import tuple as numba_tuple
 from numba.extending import overload
 from platformdirs import user_cache_path
 
@@ -30,6 +31,8 @@ OPTIONS: Any = {"error_model": "numpy", "_nrt": False}
 step (an atomic operation for every array of a learner at every call). So compiled code makes no
 arrays: it changes those it is given, which its Python caller holds."""
 
+
+set_item: Any = numba_tuple.tuple_setitem
 
 INLINED: Any = {**OPTIONS, "forceinline": True}
 """Calls cost most of a step otherwise: a learner is a hundred words, handed over by copying."""
@@ -105,3 +108,17 @@ class ByType(Generic[P, R]):
             return body
 
         return remember
+
+
+def _with_item(values: tuple[float, ...], index: int, value: float) -> tuple[float, ...]:
+    """The same numbers but for that at ``index``."""
+    return (*values[:index], value, *values[index + 1 :])
+
+
+@overload(_with_item, strict=False, jit_options=INLINED)
+def _compiled_with_item(*_: Any) -> Any:
+    return lambda values, index, value: set_item(values, index, value)
+
+
+with_item = _with_item
+"""``values`` with another number at ``index``: how compiled code fills a tuple of a given length."""

@@ -9,13 +9,14 @@ from typing import NamedTuple
 
 from upswing.physics.elementary import sine_and_cosine
 from upswing.physics.jit import compiled
+from upswing.study.physical import PendulumOptions
 
 FROM_UPRIGHT = 1.0
 FROM_HANGING = -1.0
 
 
 class Pendulum(NamedTuple):
-    """The constants of §4.2.2."""
+    """The constants of §4.2.2, and what the actions do to the cart (§4.4)."""
 
     mass: float = 0.1  # m [kg]
     length: float = 0.2  # l [m]
@@ -23,6 +24,20 @@ class Pendulum(NamedTuple):
     friction: float = 0.001  # f_c [N·m·s]: the torque is −f_c·φ̇ (eq. 17), so friction is viscous
     time_step: float = 0.005  # dt [s]
     orientation: float = FROM_UPRIGHT  # where φ = 0 is (R1); FROM_HANGING is eq. 13 as printed
+    accelerations: tuple[float, ...] = (-10.0, 0.0, 10.0)  # ẍ of each action [m/s²], ascending
+
+
+def body_of(options: PendulumOptions, orientation: float = FROM_UPRIGHT) -> Pendulum:
+    """The pendulum of a task."""
+    return Pendulum(
+        mass=float(options.mass),
+        length=float(options.length),
+        gravity=float(options.gravity),
+        friction=float(options.friction),
+        time_step=float(options.time_step),
+        orientation=orientation,
+        accelerations=tuple(map(float, options.accelerations)),
+    )
 
 
 @compiled
@@ -30,7 +45,7 @@ def angular_acceleration(
     pendulum: Pendulum, angle: float, angular_velocity: float, cart_acceleration: float
 ) -> float:
     """φ̈ [rad/s²] at φ [rad], φ̇ [rad/s] and ẍ [m/s²] (eq. 21)."""
-    m, l, g, f_c, _, up = pendulum  # noqa: E741  the symbols of §4.2
+    m, l, g, f_c, _, up, _ = pendulum  # noqa: E741  the symbols of §4.2
     sin_angle, cos_angle = sine_and_cosine(angle)
     gravity_torque = up * (m * g * l / 2) * sin_angle  # M_P, eq. 14
     cart_torque = up * (m * l / 2) * cart_acceleration * cos_angle  # M_C, eq. 16
@@ -67,9 +82,17 @@ def step_cart(
 
 
 @compiled
+def jerk(pendulum: Pendulum, angle: float, change: float) -> float:
+    """What a sudden ``change`` of ẋ [m/s] adds to φ̇ [rad/s]: eq. 20 over so short a time, M_C alone."""
+    m, l, _, _, _, up, _ = pendulum  # noqa: E741  the symbols of §4.2
+    _, cos_angle = sine_and_cosine(angle)
+    return up * (m * l / 2) * change * cos_angle / (m * l * l / 3)
+
+
+@compiled
 def energy(pendulum: Pendulum, angle: float, angular_velocity: float) -> float:
     """Kinetic and potential energy [J] on a cart at rest; that of the horizontal at rest is zero."""
-    m, l, g, _, _, up = pendulum  # noqa: E741  the symbols of §4.2
+    m, l, g, _, _, up, _ = pendulum  # noqa: E741  the symbols of §4.2
     _, cos_angle = sine_and_cosine(angle)
     return (
         m * l * l / 3 * angular_velocity * angular_velocity / 2 + up * (m * g * l / 2) * cos_angle

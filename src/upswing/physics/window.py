@@ -38,7 +38,9 @@ class Window:
                 f"(tkinter or Qt); here it draws with {drawn_by}, which has no windows. "
                 'Take "rgb_array" where there is none'
             )
-        self._figure = plt.figure(figsize=(WIDTH / 100, WIDTH / 150), dpi=100, layout="none")
+        size = WIDTH / 100, WIDTH / 150
+        # Whoever made it a rule that figures are laid out does not mean this one.
+        self._figure = plt.figure(figsize=size, dpi=100, layout="none")
         if self._figure.canvas.manager is not None:
             self._figure.canvas.manager.set_window_title(title)
         self._axes = self._figure.add_axes((0, 0, 1, 1), frameon=False, xticks=(), yticks=())

@@ -15,23 +15,29 @@ from upswing.recordings.shades import Colour, visible
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.frames import (
     BEGINNING,
-    DRAWN_EVERY,
     END,
     FRAME,
-    REAL_TIME,
     STEP,
+    drawn_every,
+    jumps,
+    real_time,
     rounded,
 )
 from upswing.runs.recording.labels import label
-from upswing.runs.recording.layout import PENDULUM_SIZE, whole_run
+from upswing.runs.recording.layout import whole_run
+from upswing.runs.recording.sizes import HALF_A_CART, unit_of, view_of
 from upswing.runs.results import Results
-from upswing.runs.simulation import body_of
+from upswing.runs.simulation import body_of_run
 from upswing.study.claim_parts import weakest
 from upswing.study.claims import Claim
 from upswing.study.ids import seed_of
+from upswing.study.task import Task
 
 SHOWN = 2_500
-"""Length of the beginning and of the end that are shown of a claim's runs [steps]."""
+"""Length of the beginning and of the end that are shown of a claim's runs [steps of 5 ms].
+
+Where steps are shorter, as many of them: more are not stored.
+"""
 
 RANKS = ("worst", "median", "best")
 
@@ -44,11 +50,12 @@ def write_claim(path: Path, results: Results, name: str, claim: Claim) -> None:
     cell = str(claim.cell)
     three = results.three_of(cell)
     runs = [str(run) for run in three["run"]]
-    body, colour = body_of(results.cells[cell]), visible(rgb(cell))
-    trajectories = [_shown(results.trajectory(run)) for run in runs]
+    body, colour = body_of_run(results.cells[cell]), visible(rgb(cell))
+    length = _length(results.task(cell))
+    trajectories = [_shown(results.trajectory(run), length) for run in runs]
     with written(path) as beside:
         recording = rr.RecordingStream(f"upswing-claim-{name}", recording_id=f"claim-{name}")
-        recording.save(beside, default_blueprint=_layout(runs, results.task(cell).angle_limit))
+        recording.save(beside, default_blueprint=_layout(runs, results.task(cell)))
         rr.send_recording_name(f"{name}: worst, median and best run of {cell}", recording=recording)
         words = _words(results, name, claim, three)
         recording.log("about", rr.TextDocument(words, media_type="text/markdown"), static=True)
@@ -59,15 +66,14 @@ def write_claim(path: Path, results: Results, name: str, claim: Claim) -> None:
         recording.disconnect()
 
 
-def _layout(runs: Sequence[str], angle_limit: float) -> rrb.Blueprint:
+def _layout(runs: Sequence[str], task: Task) -> rrb.Blueprint:
+    angle_limit, (_, up) = task.angle_limit, view_of(task.pendulum.length)
     columns = [
         rrb.Vertical(
             rrb.Spatial2DView(
                 name=f"{rank}: seed {seed_of(run)}",
                 origin=f"/{rank}/pendulum",
-                visual_bounds=rrb.VisualBounds2D(
-                    x_range=(-PENDULUM_SIZE, PENDULUM_SIZE), y_range=(-PENDULUM_SIZE, PENDULUM_SIZE)
-                ),
+                visual_bounds=rrb.VisualBounds2D(x_range=(-up, up), y_range=(-up, up)),
             ),
             rrb.TimeSeriesView(
                 name="Angle [°]",
@@ -87,7 +93,12 @@ def _layout(runs: Sequence[str], angle_limit: float) -> rrb.Blueprint:
     )
     return rrb.Blueprint(
         rrb.Horizontal(words, *columns, column_shares=[4, 3, 3, 3]),
-        rrb.TimePanel(timeline=FRAME, state="collapsed", playback_speed=1.0, fps=REAL_TIME),
+        rrb.TimePanel(
+            timeline=FRAME,
+            state="collapsed",
+            playback_speed=1.0,
+            fps=real_time(task.pendulum.time_step),
+        ),
         rrb.SelectionPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
     )
@@ -104,15 +115,17 @@ def _words(results: Results, name: str, claim: Claim, three: pd.DataFrame) -> st
     if not counted:
         counted, left_out = all_runs, " (every one diverged)"
     by = ", then by ".join(
-        f"{label(measure)} ({'lowest' if task.order_of_runs[measure] else 'highest'} first)"
+        f"{label(measure, task)} ({'lowest' if task.order_of_runs[measure] else 'highest'} first)"
         for measure in order
     )
+    headings = " | ".join(label(measure, task) for measure in order)
     rows = [
         f"| {rank} | {row['seed']} | "
         + " | ".join(f"{row[measure]:,.4g}" for measure in order)
         + " |"
         for rank, (_, row) in zip(RANKS, three.iterrows(), strict=True)
     ]
+    speed = f"{real_time(task.pendulum.time_step):g} frames a second"
     check = f"\n\nIt is a check and no evidence: {claim.check}." if claim.check else ""
     note = f"\n\n{claim.note}" if claim.note else ""
     return f"""\
@@ -127,12 +140,12 @@ def _words(results: Results, name: str, claim: Claim, three: pd.DataFrame) -> st
 **Why these runs**: the worst, the median and the best of {counted:,} runs of `{cell}`{left_out}, ordered
 by {by}.
 
-| | seed | {" | ".join(map(label, order))} |
+| | seed | {headings} |
 | --- | --- | {" | ".join("---" for _ in order)} |
 {chr(10).join(rows)}
 
-The timeline `frame` plays the first and the last {SHOWN:,} steps of the three side by side, at
-**{REAL_TIME:g} frames a second: as fast as it happened**. The speed stands at the bottom and can be
+The timeline `frame` plays the first and the last {_length(task):,} steps of the three side by side, at
+**{speed}: as fast as it happened**. The speed stands at the bottom and can be
 changed there.
 """
 
@@ -146,10 +159,15 @@ def _line(row: Evidence) -> str:
     return f"{words}asked for {row.threshold}: **{row.verdict}**{cells}"
 
 
-def _shown(trajectory: pd.DataFrame) -> pd.DataFrame:
-    """The rows of a run that are shown."""
+def _length(task: Task) -> int:
+    """Length of the beginning and of the end that are shown [steps]."""
+    return min(SHOWN, task.steps_of(SHOWN))
+
+
+def _shown(trajectory: pd.DataFrame, length: int) -> pd.DataFrame:
+    """The rows of a run that are shown: so many steps of its beginning and of its end."""
     last = int(trajectory["step"].iloc[-1])
-    return trajectory[(trajectory["step"] < SHOWN) | (trajectory["step"] > last - SHOWN)]
+    return trajectory[(trajectory["step"] < length) | (trajectory["step"] > last - length)]
 
 
 def _stretches(recording: rr.RecordingStream, steps: "np.ndarray") -> None:
@@ -170,11 +188,9 @@ def _claimed_run(
 ) -> None:
     steps, angle = shown["step"].to_numpy(), shown["angle"].to_numpy(float)
     degrees = np.degrees(angle)
-    breaks = (np.diff(steps, prepend=steps[0]) > 1) | (
-        np.abs(np.diff(degrees, prepend=degrees[0])) > 60
-    )
-    degrees[breaks] = np.nan
-    frames = np.arange(len(steps))
+    new = np.diff(steps, prepend=steps[0]) > 1
+    degrees[new | jumps(degrees, body.time_step)] = np.nan
+    frames, every, unit = np.arange(len(steps)), drawn_every(body.time_step), unit_of(body.length)
     recording.log(f"{rank}/angle", rr.SeriesLines(names=["φ"], colors=[colour]), static=True)
     recording.send_columns(
         f"{rank}/angle",
@@ -182,22 +198,24 @@ def _claimed_run(
         columns=rr.Scalars.columns(scalars=rounded(degrees)),
     )
     tip = -body.orientation * body.length * np.stack([np.sin(angle), np.cos(angle)], axis=1)
-    rods = np.stack([np.zeros_like(tip), tip], axis=1).astype(np.float32)[::DRAWN_EVERY]
+    rods = np.stack([np.zeros_like(tip), tip], axis=1).astype(np.float32)[::every]
     recording.log(
         f"{rank}/pendulum/rod",
-        rr.LineStrips2D.from_fields(colors=[colour], radii=[0.006]),
+        rr.LineStrips2D.from_fields(colors=[colour], radii=[0.006 * unit]),
         static=True,
     )
     recording.log(
         f"{rank}/pendulum/cart",
-        rr.Boxes2D(half_sizes=[[0.05, 0.015]], centers=[[0, 0]], colors=[[90, 90, 90]]),
+        rr.Boxes2D(
+            half_sizes=[[HALF_A_CART * unit, 0.015 * unit]], centers=[[0, 0]], colors=[[90, 90, 90]]
+        ),
         static=True,
     )
     recording.send_columns(
         f"{rank}/pendulum/rod",
         indexes=[
-            rr.TimeColumn(FRAME, sequence=frames[::DRAWN_EVERY]),
-            rr.TimeColumn(STEP, sequence=steps[::DRAWN_EVERY]),
+            rr.TimeColumn(FRAME, sequence=frames[::every]),
+            rr.TimeColumn(STEP, sequence=steps[::every]),
         ],
         columns=rr.LineStrips2D.columns(strips=list(rods)),
     )

@@ -20,18 +20,19 @@ from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.frames import (
-    DRAWN_EVERY,
     FRAME,
-    REAL_TIME,
     STEP,
     Frames,
     Steps,
     Stretch,
+    drawn_every,
+    real_time,
+    so_long,
     time_columns,
 )
 from upswing.runs.recording.happenings import Event, passages
 from upswing.runs.recording.layout import run_layout
-from upswing.runs.recording.pictures import TRAIL, draw_learned, draw_pendulum, draw_phase_plane
+from upswing.runs.recording.pictures import draw_learned, draw_pendulum, draw_phase_plane, trail
 from upswing.runs.recording.write import draw_envelope, draw_lines
 from upswing.runs.simulation import REWARD_SCALES
 from upswing.runs.snapshots import Snapshots
@@ -39,11 +40,8 @@ from upswing.study.ids import recording_id
 from upswing.study.measured import Windows
 from upswing.study.spec import Spec
 
-LEAD = TRAIL * DRAWN_EVERY
-"""How far before the new steps drawing begins: a trail is as long [steps]."""
-
 REMEMBERED = 4_000
-"""How long ago the pendulum may have been below the horizontal when it gets up: 20 s [steps]."""
+"""How long ago the pendulum may have been below the horizontal when it gets up [steps of 5 ms]."""
 
 
 class _Rows(NamedTuple):
@@ -121,12 +119,12 @@ class Plan(NamedTuple):
     drawn: Steps  # at which pictures are drawn
 
     @classmethod
-    def of(cls, shown: NDArray[np.bool_], name: str) -> "Plan":
-        """From whether each step is shown, shape (steps,), and what is said of all of them."""
+    def of(cls, shown: NDArray[np.bool_], name: str, time_step: float) -> "Plan":
+        """From whether each step [s] is shown, shape (steps,), and what is said of all of them."""
         ends = np.flatnonzero(shown & ~np.append(shown[1:], False)) + 1
         rows = np.union1d(np.flatnonzero(shown), ends)
         named = (Stretch(0, len(shown), name),)
-        frames = Frames(rows, ~np.append(shown, False)[rows], named)
+        frames = Frames(rows, ~np.append(shown, False)[rows], time_step, named)
         return cls(frames, frames.drawn)
 
     def shows(self, step: int) -> bool:
@@ -140,7 +138,9 @@ class Plan(NamedTuple):
         begin, end = np.searchsorted(self.frames.steps, (first, last))
         if begin == end:
             return None
-        piece = _Piece(self.frames.steps[begin:end], self.frames.gap[begin:end])
+        piece = _Piece(
+            self.frames.steps[begin:end], self.frames.gap[begin:end], self.frames.time_step
+        )
         piece.of = self
         return piece
 
@@ -181,6 +181,8 @@ class Live:
         self._name, self._task, self._body = f"{run} ({name})", spec.task, body
         self._plan, self._trajectory = plan, trajectory
         self._unit = REWARD_SCALES[spec.readings.reward_unit]
+        # Drawing begins as far before the new steps as a trail is long [steps].
+        self._lead = trail(body.time_step)[0] * drawn_every(body.time_step)
         self._told = 0  # the first step of whose events nothing was told
         self.falls = 0  # before it
 
@@ -192,7 +194,7 @@ class Live:
             timeline=FRAME,
             state="collapsed",
             play_state=play_state,
-            fps=REAL_TIME,
+            fps=real_time(self._body.time_step),
             loop_mode="all" if play_state == "playing" else None,
         )
         self.stream.send_blueprint(layout)
@@ -202,10 +204,10 @@ class Live:
         end = len(self._trajectory.angle)
         self.stream.since = first
         # The row that ends the last line stands after the last step.
-        piece = self._plan.piece(max(0, first - LEAD), last + (last == end))
+        piece = self._plan.piece(max(0, first - self._lead), last + (last == end))
         if piece is not None:
-            draw_lines(self.stream, piece, self._trajectory)
-            draw_pendulum(self.stream, piece, self._trajectory, self._body)
+            draw_lines(self.stream, piece, self._trajectory, self._body)
+            draw_pendulum(self.stream, piece, self._trajectory, self._body, self._task.track.limit)
             draw_phase_plane(self.stream, piece, self._trajectory, learned)
         self._name_stretches(first, last)
         # Whether a step passes the horizontal is known with the next one.
@@ -214,7 +216,7 @@ class Live:
     def draw_learned(self, learned: Snapshots) -> None:
         """Draw the maps of some moments in one scale."""
         self.stream.since = 0
-        draw_learned(self.stream, self._plan.frames, learned, self._unit)
+        draw_learned(self.stream, self._plan.frames, learned, self._body, self._unit)
 
     def draw_envelope(self, windows: Windows) -> None:
         """Draw the lowest and the highest angle over the whole run."""
@@ -275,7 +277,8 @@ class Live:
         """Tell what happened up to step ``after`` since it was last told, where it is shown."""
         if after <= self._told:
             return
-        found = passages(self._trajectory, max(0, self._told - REMEMBERED), after)
+        first = max(0, self._told - so_long(REMEMBERED, self._body.time_step))
+        found = passages(self._trajectory, first, after)
         falls = found.falls[found.falls >= self._told].tolist()
         arrived = {
             int(step): f"arrives above the horizontal at {speed:.1f} rad/s"

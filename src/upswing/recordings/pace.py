@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from upswing.physics.pendulum import Pendulum
 from upswing.recordings.live import Plan
-from upswing.runs.recording.frames import STRETCH
+from upswing.runs.recording.frames import stretch_length
 from upswing.study.errors import BadInput
+from upswing.study.task import Task
 
 REAL, FAST = 1.0, inf
 """Speeds: as it happens, and as fast as it goes."""
@@ -32,21 +32,25 @@ class Pace(NamedTuple):
 
     speed: float  # in multiples of real time; infinite: as fast as it goes
     size: int  # of a piece [steps]
+    time_step: float  # of the run [s]
     waits: bool = True  # whether somebody looks, for whom a step comes when it is due
 
     @classmethod
-    def of(cls, speed: float, steps: int, waits: bool = True) -> "Pace":
-        """For a run of so many steps."""
+    def of(cls, speed: float, task: Task, waits: bool = True) -> "Pace":
+        """For a run of a task."""
+        dt = task.pendulum.time_step
         if speed == FAST:
-            return cls(speed, max(STRETCH, -(-steps // PIECES)), waits)
-        return cls(speed, max(1, round(speed * BETWEEN / Pendulum().time_step)), waits)
+            return cls(speed, max(stretch_length(dt), -(-task.steps // PIECES)), dt, waits)
+        return cls(speed, max(1, round(speed * BETWEEN / dt)), dt, waits)
 
     def plan(self, steps: int) -> Plan:
         """Every step is shown, or of longer pieces the last ones."""
         left = np.minimum(self.size, steps) - 1 - np.arange(steps) % self.size
-        if self.size <= STRETCH:
-            return Plan.of(left >= 0, "every step")
-        return Plan.of(left < STRETCH, f"the last {STRETCH} of every {self.size:,} steps")
+        stretch = stretch_length(self.time_step)
+        if self.size <= stretch:
+            return Plan.of(left >= 0, "every step", self.time_step)
+        name = f"the last {stretch:,} of every {self.size:,} steps"
+        return Plan.of(left < stretch, name, self.time_step)
 
     def pieces(self, steps: int) -> Iterator[tuple[int, int]]:
         """What is learned and drawn at once: its first step, and the step after its last."""
@@ -56,13 +60,13 @@ class Pace(NamedTuple):
 
     def due(self, step: int) -> float:
         """When a step is to be seen [s after the beginning]."""
-        return step * Pendulum().time_step / self.speed if self.waits else 0.0
+        return step * self.time_step / self.speed if self.waits else 0.0
 
     def next_look(self, step: int) -> float:
         """When to look at what is known after looking before ``step`` [step]."""
         if self.speed == FAST:
             return step + 1
-        return step + max(LOOKED_EVERY * self.speed / Pendulum().time_step, GROWTH * step)
+        return step + max(LOOKED_EVERY * self.speed / self.time_step, GROWTH * step)
 
 
 def parse_speed(text: str) -> float:

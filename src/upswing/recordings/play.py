@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.physics.environment import NEVER, Trajectory
-from upswing.physics.pendulum import Pendulum
+from upswing.physics.pendulum import step_cart
 from upswing.physics.tasks import wrapped
+from upswing.physics.track import ends_run
 from upswing.recordings.asked_to_end import ended_by_signals
 from upswing.recordings.live import Live, Plan
 from upswing.recordings.looking import Looking
@@ -25,15 +26,14 @@ from upswing.runs.success import SUCCESS
 from upswing.study.errors import BadInput
 from upswing.study.ids import run_of
 
-TIME_STEP = Pendulum().time_step
 FASTEST = 100.0
 """Largest |φ̇| at the start and of a push [rad/s]."""
 
 LONGEST = 600.0
 """Of what is played [s]."""
 
-HELD = round(0.5 / TIME_STEP)
-"""Upright for so long is up, and not passing by: half a second [steps]."""
+HELD = 0.5
+"""Upright for so long is up, and not passing by [s]."""
 
 JUDGED = 4
 """The last one of so many parts says whether it stands: 5 s of 20 s."""
@@ -48,16 +48,6 @@ class Start(NamedTuple):
     at: float = 5.0  # when it is pushed [s]
     seconds: float = 20.0  # how long it is followed
 
-    @property
-    def steps(self) -> int:
-        """How long it is followed [steps]."""
-        return round(self.seconds / TIME_STEP)
-
-    @property
-    def pushed_at(self) -> int | None:
-        """The step before which it is pushed; None if it is not."""
-        return round(self.at / TIME_STEP) if self.push else None
-
 
 class Played(NamedTuple):
     """What happened."""
@@ -71,6 +61,29 @@ class Played(NamedTuple):
     def steps(self) -> int:
         """Number of steps until the end, or until a fall that ends the task."""
         return len(self.trajectory.angle)
+
+    @property
+    def time_step(self) -> float:
+        """The time step of the run [s]."""
+        return self.learned.setting.body.time_step
+
+    @property
+    def pushed_at(self) -> int | None:
+        """The step before which it is pushed; None if it is not."""
+        return _pushed_at(self.start, self.time_step)
+
+    @property
+    def ends_at_track_end(self) -> bool:
+        """Whether its last step takes the cart to an end of the track where the task ends."""
+        setting, last = self.learned.setting, self.trajectory
+        position, _ = step_cart(
+            setting.body,
+            float(last.cart_position[-1]),
+            float(last.cart_velocity[-1]),
+            setting.body.accelerations[last.action[-1]],
+        )
+        # What is kept of a position has seven digits.
+        return bool(ends_run(setting.task.track, position * (1 + 1e-6)))
 
     @property
     def upright(self) -> NDArray[np.bool_]:
@@ -102,21 +115,28 @@ def follow(learned: Learned, start: Start) -> Played:
         BadInput: the start is none of the task, or the rest of it makes no sense.
     """
     _check(learned, start)
-    angle = radians(start.angle)
+    angle, time_step = radians(start.angle), learned.setting.body.time_step
     if learned.setting.task.wraps:
         angle = wrapped(angle)
-    pushes = {start.pushed_at: start.push} if start.pushed_at is not None else {}
-    trajectory = learned.simulate(angle, start.velocity, start.steps, pushes)
+    pushed_at, steps = _pushed_at(start, time_step), round(start.seconds / time_step)
+    pushes = {} if pushed_at is None else {pushed_at: start.push}
+    trajectory = learned.simulate(angle, start.velocity, steps, pushes)
     falls = np.flatnonzero(trajectory.reset)
     # After a fall the task begins anew at a start of its own, which nobody has asked for.
-    steps = int(falls[0]) + 1 if len(falls) else start.steps
+    steps = int(falls[0]) + 1 if len(falls) else steps
     columns = {name: column[:steps] for name, column in trajectory._asdict().items()}
     columns["td_error"] = np.full(steps, np.nan, np.float32)  # nothing is learned
     columns["diverged_at"] = trajectory.diverged_at
     return Played(learned, start, Trajectory(**columns), bool(len(falls)))
 
 
+def _pushed_at(start: Start, time_step: float) -> int | None:
+    """The step before which it is pushed, of so many seconds each; None if it is not."""
+    return round(start.at / time_step) if start.push else None
+
+
 def _check(learned: Learned, start: Start) -> None:
+    time_step = learned.setting.body.time_step
     critical = degrees(learned.setting.task.critical_angle)
     limit = min(180.0, critical)
     because = f": {learned.spec.task.name} ends beyond it" if critical < 180 else ""
@@ -126,11 +146,12 @@ def _check(learned: Learned, start: Start) -> None:
     for name, value in (("--velocity", start.velocity), ("--push", start.push)):
         if not abs(value) <= FASTEST:
             problems.append(f"{name}: {value:g}: must be from −{FASTEST:g} to {FASTEST:g} rad/s")
-    if not (isfinite(start.seconds) and TIME_STEP <= start.seconds <= LONGEST):
-        right = f"must be a time from {TIME_STEP:g} to {LONGEST:g} s"
+    if not (isfinite(start.seconds) and time_step <= start.seconds <= LONGEST):
+        right = f"must be a time from {time_step:g} to {LONGEST:g} s"
         problems.append(f"--seconds: {start.seconds:g}: {right}")
     elif start.push and not (
-        0 <= start.at < start.seconds and round(start.at / TIME_STEP) < start.steps
+        0 <= start.at < start.seconds
+        and round(start.at / time_step) < round(start.seconds / time_step)
     ):
         right = f"must be a time before the end, {start.seconds:g} s"
         problems.append(f"--at: {start.at:g}: {right}")
@@ -144,22 +165,25 @@ def in_words(played: Played) -> str:
         return (
             "The run diverged: what it learned is no finite number, and what it does means nothing."
         )
-    said, pushed_at = [], played.start.pushed_at
+    said, pushed_at, time_step = [], played.pushed_at, played.time_step
     until = played.steps if pushed_at is None else min(pushed_at, played.steps)
     said.append(_got_up(played, 0, until))
     if pushed_at is not None and pushed_at < played.steps:
         said.append(
-            f"The push of {played.start.push:+g} rad/s at {pushed_at * TIME_STEP:g} s: "
+            f"The push of {played.start.push:+g} rad/s at {pushed_at * time_step:g} s: "
             + _got_up(played, pushed_at, played.steps).lower()
         )
-    end = f"at {played.steps * TIME_STEP:.2f} s"
+    end = f"at {played.steps * time_step:.2f} s"
+    if played.ends_in_fall and played.ends_at_track_end:
+        end = f"The cart came to the end of its track {end}"
+        return " ".join([*said, f"{end}, which ends {played.learned.spec.task.name}."])
     if played.ends_in_fall:
         return " ".join([*said, f"It fell {end}, which ends {played.learned.spec.task.name}."])
     judged = max(1, played.steps // JUDGED)
     share = float(np.mean(played.upright[-judged:]))
     verdict = "it stands" if share >= SUCCESS else "it does not stand"
     said.append(
-        f"At the end, {verdict}: upright for {100 * share:.3g} % of the last {judged * TIME_STEP:.3g} s."
+        f"At the end, {verdict}: upright for {100 * share:.3g} % of the last {judged * time_step:.3g} s."
     )
     return " ".join(said)
 
@@ -171,10 +195,11 @@ def _got_up(played: Played, first: int, after: int) -> str:
         farthest = degrees(float(np.arccos(np.cos(played.trajectory.angle[first:after]).min())))
         return f"It stayed upright, at most {farthest:.1f}° away."
     so_far = np.concatenate([[0], np.cumsum(upright)])
-    found = np.flatnonzero(so_far[HELD:] - so_far[:-HELD] == HELD)
+    held = max(1, round(HELD / played.time_step))
+    found = np.flatnonzero(so_far[held:] - so_far[:-held] == held)
     if not len(found):
         return "It did not get upright."
-    return f"It was upright after {found[0] * TIME_STEP:.2f} s."
+    return f"It was upright after {found[0] * played.time_step:.2f} s."
 
 
 def play_in(viewer: AbstractContextManager[Looking], played: Played) -> None:
@@ -205,9 +230,10 @@ def play_into(path: Path, played: Played) -> None:
         live.write(path)
         live.end()
     else:
-        body, task = played.learned.setting.body, played.learned.spec.task
-        pushed_at = played.start.pushed_at
-        write_slide(path, Slide(body, played.trajectory, pushed_at, task.angle_limit))
+        setting, limit = played.learned.setting, played.learned.spec.task.angle_limit
+        track = setting.task.track.limit
+        slide = Slide(setting.body, played.trajectory, played.pushed_at, limit, track)
+        write_slide(path, slide)
     print(f"{path}: {_title(played)}\n{in_words(played)}")
 
 
@@ -221,16 +247,17 @@ def check_name(path: Path) -> None:
 
 
 def _title(played: Played) -> str:
-    return f"{played.learned.run} from {played.start.angle:g}° for {played.steps * TIME_STEP:g} s"
+    seconds = played.steps * played.time_step
+    return f"{played.learned.run} from {played.start.angle:g}° for {seconds:g} s"
 
 
 def _live(played: Played) -> Live:
-    start, border = played.start, played.start.pushed_at
+    start, border = played.start, played.pushed_at
     name = f"from {start.angle:g}°"
     named: tuple[Stretch, ...] = (Stretch(0, played.steps, name),)
     if border is not None and 0 < border < played.steps:
         named = (Stretch(0, border, name), Stretch(border, played.steps, "after the push"))
-    plan = Plan.of(np.ones(played.steps, np.bool_), name)
+    plan = Plan.of(np.ones(played.steps, np.bool_), name, played.time_step)
     plan = plan._replace(frames=plan.frames._replace(named=named))
     body = played.learned.setting.body
     return Live(played.learned.spec, body, plan, played.trajectory, "played")
@@ -242,7 +269,7 @@ def _draw(live: Live, played: Played) -> None:
     live.begin("playing")
     live.draw_learned(known)
     live.draw(0, played.steps, known)
-    at, push = played.start.pushed_at, played.start.push
+    at, push = played.pushed_at, played.start.push
     events = [Event(0, "INFO", f"start: {played.start.angle:g}°")]
     if at is not None and at < played.steps:
         events.append(Event(at, "WARN", f"push: {push:+g} rad/s"))

@@ -1,6 +1,7 @@
 """The pendulum for a slide: a picture that moves in real time, or some moments side by side."""
 
 from functools import cached_property
+from math import ceil, inf
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,14 @@ from upswing.physics.picture import picture
 from upswing.runs.files.atomic import written
 from upswing.runs.metrics import UPRIGHT
 
-STEPS_A_PICTURE = 8
-"""40 ms: 25 pictures a second [steps]."""
+A_PICTURE = 40
+"""From one picture to the next: 25 a second; a GIF knows multiples of 10 [ms]."""
+
+A_POINT = 0.01
+"""From one point of the angle's curve to the next, about [s]."""
+
+SAID = 0.5
+"""How long it is said that there was a push [s]."""
 
 WIDTH, HEIGHT, STRIP = 480, 320, 90
 """Of a picture of the pendulum, and the height of the strip below it [pixels]."""
@@ -39,15 +46,28 @@ class Slide:
         trajectory: what it did.
         pushed_at: the step before which it was pushed; None if it was not.
         limit: the angle's curve shows ± this [°].
+        track: the cart goes no further than |x| = this [m].
     """
 
     def __init__(
-        self, body: Pendulum, trajectory: Trajectory, pushed_at: int | None, limit: int
+        self,
+        body: Pendulum,
+        trajectory: Trajectory,
+        pushed_at: int | None,
+        limit: int,
+        track: float = inf,
     ) -> None:
-        self._body, self._trajectory = body, trajectory
+        self._body, self._trajectory, self._track = body, trajectory, track
         self._pushed_at, self._limit = pushed_at, limit
         self.steps = len(trajectory.angle)
         self.time_step = body.time_step
+
+    @property
+    def in_real_time(self) -> list[int]:
+        """The steps at which pictures are drawn that follow each other every ``A_PICTURE`` ms."""
+        each = A_PICTURE / 1_000 / self.time_step
+        count = max(1, ceil(round(self.steps / each, 6)))
+        return [min(round(number * each), self.steps - 1) for number in range(count)]
 
     def moment(self, step: int) -> Image.Image:
         """The pendulum at a step, its angle's curve below it with a mark, and the time."""
@@ -78,11 +98,11 @@ class Slide:
             self._trajectory.cart_velocity,
         )
         state = State(*(float(column[step]) for column in columns))
-        image = Image.fromarray(picture(self._body, state, WIDTH * FINER))
+        image = Image.fromarray(picture(self._body, state, WIDTH * FINER, self._track))
         draw, seconds = ImageDraw.Draw(image), step * self.time_step
         draw.text((10 * FINER, 8 * FINER), f"{seconds:.2f} s", INK, _font(20))
         pushed = self._pushed_at
-        if pushed is not None and 0 <= step - pushed < 100:
+        if pushed is not None and 0 <= (step - pushed) * self.time_step < SAID:
             draw.text((10 * FINER, 34 * FINER), "push", PUSH, _font(20))
         return image
 
@@ -115,7 +135,7 @@ class Slide:
     def _lines(self, width: int) -> list[list[tuple[float, float]]]:
         """The angle within one turn; a new line begins where it jumps by a turn."""
         turned = np.degrees(self._trajectory.angle.astype(float) + np.pi) % 360 - 180
-        steps = np.arange(0, self.steps, 2)
+        steps = np.arange(0, self.steps, max(1, round(A_POINT / self.time_step)))
         shown = turned[steps]
         jumps = np.flatnonzero(np.abs(np.diff(shown)) > 180) + 1
         return [
@@ -148,14 +168,14 @@ def write_slide(path: Path, slide: Slide) -> None:
         palette = _palette()
         first, *others = (
             slide.moment(step).quantize(palette=palette, dither=Image.Dither.NONE)
-            for step in range(0, slide.steps, STEPS_A_PICTURE)
+            for step in slide.in_real_time
         )
         first.save(
             beside,
             format="GIF",
             save_all=True,
             append_images=others,
-            duration=round(1_000 * STEPS_A_PICTURE * slide.time_step),
+            duration=A_PICTURE,
             loop=0,
         )
 

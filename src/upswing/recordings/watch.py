@@ -8,7 +8,6 @@ from time import monotonic, sleep
 import numpy as np
 
 from upswing.physics.environment import Trajectory, empty_trajectory
-from upswing.physics.pendulum import Pendulum
 from upswing.recordings.asked_to_end import ended_by_signals
 from upswing.recordings.live import Live
 from upswing.recordings.looking import Looking
@@ -16,9 +15,8 @@ from upswing.recordings.pace import BETWEEN, FAST, Pace
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.metrics import STABLE_STEPS, UPRIGHT
 from upswing.runs.outcome import Outcome, outcome_of
-from upswing.runs.recording.axes import MODULES
 from upswing.runs.recording.happenings import Event, last_fall
-from upswing.runs.recording.words import COLOURS, TWO_MODULES, story
+from upswing.runs.recording.words import colours, story
 from upswing.runs.simulation import Setting, prepare
 from upswing.runs.snapshots import Snapshots, look, snapshots
 from upswing.study.ids import file_of
@@ -95,7 +93,7 @@ def watch_in(
         results: where the same run may be stored.
     """
     steps, run = spec.task.steps, spec.run(spec.seeds[0])
-    pace = Pace.of(speed, steps)
+    pace = Pace.of(speed, spec.task)
     seconds = "as fast as it goes" if speed == FAST else f"in {pace.due(steps):,.0f} s"
     with ended_by_signals(), viewer as looking:
         print(f"{run} learns {steps:,} steps {seconds}, {looking.says}", flush=True)
@@ -120,7 +118,7 @@ def watch_into(path: Path, spec: Spec, speed: float, results: Path) -> None:
     Raises:
         OSError: it cannot be written.
     """
-    pace = Pace.of(speed, spec.task.steps, waits=False)
+    pace = Pace.of(speed, spec.task, waits=False)
     outcome = watch(spec, pace, Live.remember, at_end=lambda live: live.write(path))
     print(_in_words(spec, outcome, results))
 
@@ -184,8 +182,8 @@ def _tell_outcome(
 
 def _progress(spec: Spec, trajectory: Trajectory, step: int, falls: int) -> str:
     """How far a run is, in words."""
-    time_step, steps = Pendulum().time_step, spec.task.steps
-    recent = trajectory.angle[max(0, step - STABLE_STEPS) : step]
+    time_step, steps = spec.task.pendulum.time_step, spec.task.steps
+    recent = trajectory.angle[max(0, step - spec.task.steps_of(STABLE_STEPS)) : step]
     upright = float(np.mean(np.cos(recent) >= np.cos(UPRIGHT)))
     doing = "It is running" if spec.alpha is None else "It is learning"
     return about(
@@ -205,8 +203,7 @@ def about(spec: Spec, news: str, over_the_whole_run: bool = True) -> str:
         news: what is new.
         over_the_whole_run: whether curves over the whole run are drawn, and so are to be explained.
     """
-    modules = TWO_MODULES.format(*MODULES) if spec.architecture.is_modular else ""
-    said = COLOURS.format(modules=modules)
+    said = colours(spec)
     if not over_the_whole_run:
         said = "\n\n".join(part for part in said.split("\n\n") if "the whole run" not in part)
     return f"## {spec.run(spec.seeds[0])}\n\n{news}\n\n{said}\n"

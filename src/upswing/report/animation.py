@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.trajectory import WHOLE_AFTER_SUCCESS, WHOLE_BEFORE_SUCCESS
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.results import Results
@@ -26,10 +25,10 @@ LEARNED = "full-control/table/alpha-0.01"
 """The same table with another step size."""
 
 STEPS = WHOLE_BEFORE_SUCCESS + WHOLE_AFTER_SUCCESS
-"""Length of what is played [steps]: 10 s, as much as is stored whole around a first success."""
+"""Length of what is played [steps]: as is stored whole around a first success, in the thesis 10 s."""
 
-STEPS_A_FRAME = 8
-"""40 ms: 25 frames a second."""
+A_FRAME = 0.04
+"""25 frames a second [s]."""
 
 WIDTH, HEIGHT, PANEL = 720, 330, 360
 PIVOT_HEIGHT, ROD = 150, 84
@@ -44,6 +43,12 @@ class Stretch(NamedTuple):
     title: str
     subtitle: str
     angle: Real  # φ from upright, without jumps between turns [rad]: (frames,)
+    time_step: float  # between frames [s]
+
+    @property
+    def seconds(self) -> float:
+        """For how long it plays."""
+        return len(self.angle) * self.time_step
 
 
 def stretches(results: Results) -> list[Stretch]:
@@ -66,16 +71,18 @@ def stretches(results: Results) -> list[Stretch]:
 def _stretch(results: Results, says: str, run: str, success: float | None) -> Stretch:
     """The steps around a first success, or the last ones."""
     stored = results.trajectory(run)
+    step = float(results.task(cell_of(run)).pendulum.time_step)
+    apart = max(1, round(A_FRAME / step))
     last = int(stored["step"].iloc[-1]) + 1
     first = last - STEPS if success is None else int(success) - WHOLE_BEFORE_SUCCESS
     first = min(max(first, 0), max(last - STEPS, 0))
-    shown = range(first, min(first + STEPS, last), STEPS_A_FRAME)
+    shown = range(first, min(first + STEPS, last), apart)
     angle = np.unwrap(stored.loc[stored["step"].isin(shown), "angle"].to_numpy(float))
     if results.study.readings.zero_of_angle == "hanging":
         angle = angle + np.pi
     what = "the end of its run" if success is None else "from where it first stays up"
     title = f"{says}: {CellId.parse(cell_of(run)).label}"
-    return Stretch(title, f"{what}, step {first:,}", angle)
+    return Stretch(title, f"{what}, step {first:,}", angle, apart * step)
 
 
 def drawn(panels: Sequence[Stretch]) -> str:
@@ -121,7 +128,7 @@ text, .cart { fill: #c9ced8 }
 
 def _moves(number: int, panel: Stretch) -> str:
     """The movements of a panel: the rod and the mark of now."""
-    seconds = len(panel.angle) * STEPS_A_FRAME * Pendulum().time_step
+    seconds = panel.seconds
     parts = {
         "rod": _frames(f"transform:rotate({turn}deg)" for turn in _turns(panel.angle)),
         "now": f"0%{{transform:translate(-{STRIP_WIDTH}px)}}100%{{transform:translate(0)}}",
@@ -170,7 +177,7 @@ def _body(number: int, panel: Stretch) -> str:
         f'{axis}<path class="angle" d="{_curve(across, wrapped)}"/>'
         f'<path class="now now{number}" d="M{right} {STRIP_TOP}v{STRIP_HEIGHT}"/>'
         f'<text class="small" x="{middle + 10}" y="{STRIP_TOP + STRIP_HEIGHT + 14}">'
-        f"angle φ over 10 s; the band is upright, ±20°</text>"
+        f"angle φ over {panel.seconds:.3g} s; the band is upright, ±20°</text>"
     )
 
 

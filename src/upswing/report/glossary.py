@@ -39,7 +39,7 @@ def glossary(templates: Path) -> Mapping[str, Word]:
     try:
         return _Words.model_validate(read_yaml(path)).root
     except ValidationError as error:
-        raise BadInput(explained(_Words, error, lambda _: str(path))) from None
+        raise BadInput(explained(_Words, error, lambda *_: str(path))) from None
 
 
 def in_a_paragraph(words: Mapping[str, Word]) -> str:

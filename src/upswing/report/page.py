@@ -8,8 +8,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
-from upswing.figures.phases import HELD
-from upswing.physics.pendulum import Pendulum
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -26,6 +24,7 @@ from upswing.report.history_shown import history
 from upswing.report.interactive import embedded, endings, shown_figures
 from upswing.report.judged import counts, judged
 from upswing.report.kept import kept
+from upswing.report.pendulums import body_of_bound, lengths, system
 from upswing.report.pictures import data_of
 from upswing.report.readings_shown import over_readings, rows, swept
 from upswing.report.registered import registered
@@ -142,8 +141,7 @@ def page_of(
         "registered": registered(results, study),
         "exploratory": exploratory(templates),
         "over": over_readings(results, templates, verdicts),
-        "body": Pendulum(),
-        "held": HELD,
+        **system(study, templates),
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": by_name,
@@ -170,9 +168,6 @@ def page_of(
         "provenance": provenance(),
         "style": _all(templates, STYLES),
         "script": _all(templates, SCRIPTS),
-        "drawings": {
-            path.stem: _own(path) for path in sorted((templates / "drawings").glob("*.svg"))
-        },
     }
     try:
         page = environment.get_template("index.html.j2").render(shown)
@@ -219,6 +214,8 @@ def _beyond(results: Path, at: str) -> Row:
         drawn_figures = shown_figures(found["folder"])
         found["figures"] = {figure["name"]: figure for figure in drawn_figures}
         found["kept"] = kept((), drawn_figures, ())
+        study = read_study(found["folder"])
+        found["body"], found["end"] = body_of_bound(study), lengths(study)["end"]
     return found
 
 

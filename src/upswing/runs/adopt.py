@@ -65,8 +65,8 @@ def adopt(results: Path, asked: Asked) -> Spec:
     _check(results, study, asked)
     agent = find(asked.agent)
     architecture = _architecture(agent, asked)
-    _try(agent, asked.seeds[0])
     spec = specified(study, asked.task, architecture, asked.seeds)
+    _try(agent, spec)
     before = _before(results, study, spec)
     with acting(agent), redirect_stdout(_Shown(sys.stdout)):
         train(spec, results)
@@ -114,13 +114,13 @@ def _architecture(agent: Agent, asked: Asked) -> NamedArchitecture:
             made_with=agent.made_with,
         )
     except ValidationError as error:
-        raise BadInput(explained(NamedArchitecture, error, lambda _: "adopt")) from None
+        raise BadInput(explained(NamedArchitecture, error, lambda *_: "adopt")) from None
 
 
-def _try(agent: Agent, seed: int) -> None:
+def _try(agent: Agent, spec: Spec) -> None:
     """Ask the agent once, before anything is written."""
     try:
-        acting = Acting(agent, seed)
+        acting = Acting(agent, spec.seeds[0], spec.task.pendulum.accelerations)
         acting.begin()
         acting.action(0.0, 0.0)
     except AgentFailed as error:

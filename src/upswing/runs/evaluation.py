@@ -22,7 +22,8 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
     epsilon = 0.0 if setting.learner.epsilon is None else setting.learner.epsilon
     rule = setting.rule._replace(step_size=0.0, epsilon=epsilon)
     successes, upright = 0, 0.0
-    trajectory = empty_trajectory(task.greedy_steps)
+    steps, judged = task.steps_of(task.greedy_steps), task.steps_of(task.greedy_judged)
+    trajectory = empty_trajectory(steps)
     for angle in task.greedy_starts:
         episode = replace(
             setting,
@@ -32,8 +33,8 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
             actions=stream,
             starts=stream,
         )
-        episode.advance(trajectory, 0, task.greedy_steps)
-        first = task.greedy_steps - task.greedy_judged
+        episode.advance(trajectory, 0, steps)
+        first = steps - judged
         # |φ| ≤ 20° on any turn (R4 `unbounded`) is a large cosine.
         share = float(np.mean(np.cos(trajectory.angle[first:]) >= np.cos(UPRIGHT)))
         upright += share

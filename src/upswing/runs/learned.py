@@ -19,7 +19,6 @@ from upswing.agents.learners import values
 from upswing.agents.policy import Rule, epsilon_greedy
 from upswing.physics.environment import State, Trajectory, empty_trajectory
 from upswing.physics.jit import compiled
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
 from upswing.runs.simulation import Setting, new_algorithm, prepare, streams
 from upswing.study.errors import BadInput
 from upswing.study.ids import file_of
@@ -28,6 +27,9 @@ from upswing.study.spec import Spec, parse
 WEIGHTS = "weights.safetensors"
 LONGEST_HEADER = 100_000
 """Largest header of a file of weights [bytes]: a specification, names and shapes of some arrays."""
+
+FOLLOWED = 4_000
+"""How long a policy is followed where nothing is said: 20 s [steps of 5 ms]."""
 
 Real = NDArray[np.float64]
 
@@ -58,11 +60,16 @@ class Learned:
         """The run with what it learned; the same for every question."""
         return self._restored()
 
+    @property
+    def accelerations(self) -> tuple[float, ...]:
+        """What each action does to the cart [m/s²], ascending: −10, 0 and +10 in the thesis."""
+        return self.setting.body.accelerations
+
     def values(self, angle: ArrayLike, angular_velocity: ArrayLike) -> Real:
-        """Q of the three actions [the unit of R3] in states φ [rad], φ̇ [rad/s].
+        """Q of the actions [the unit of R3] in states φ [rad], φ̇ [rad/s].
 
         Both are numbers or arrays, of shapes that go together; the answer has that shape and behind it
-        the actions, −10, 0 and +10 m/s². They are what the loop reads, bit for bit.
+        the actions, in the order of ``accelerations``. They are what the loop reads, bit for bit.
         """
         return self._asked(angle, angular_velocity)[0]
 
@@ -97,14 +104,16 @@ class Learned:
         self,
         angle: float,
         angular_velocity: float = 0.0,
-        steps: int = 4_000,
+        steps: int | None = None,
         pushes: Mapping[int, float] | None = None,
     ) -> Trajectory:
-        """So many steps of 5 ms from φ [rad], φ̇ [rad/s], following the greedy policy.
+        """So many steps from φ [rad], φ̇ [rad/s], following the greedy policy.
 
+        Without ``steps`` it is followed for 20 s.
         ``pushes`` says of steps by how much φ̇ is changed before them [rad/s]. After a fall it starts
         anew where the task does.
         """
+        steps = self.spec.task.steps_of(FOLLOWED) if steps is None else steps
         trajectory, at = empty_trajectory(steps), 0
         setting = self.following(angle, angular_velocity)
         for step, push in sorted((pushes or {}).items()):
@@ -129,13 +138,14 @@ class Learned:
         if setting.task.wraps:  # within one turn, as the system keeps it
             turned = (angles + np.pi) % (2 * np.pi) - np.pi
             angles = np.where(np.abs(angles) <= np.pi, angles, turned)
-        q, accelerations = np.empty((angles.size, ACTIONS)), np.empty(angles.size)
+        actions = len(self.accelerations)
+        q, chosen = np.empty((angles.size, actions)), np.empty(angles.size)
         *_, stream, _ = streams(self.seed)
         _ask(
             setting.encoder, setting.learner.stepped, _frozen(setting), stream,
-            angles.ravel(), velocities.ravel(), q, accelerations,
+            self.accelerations, angles.ravel(), velocities.ravel(), q, chosen,
         )  # fmt: skip
-        return q.reshape(*angles.shape, ACTIONS), accelerations.reshape(angles.shape)
+        return q.reshape(*angles.shape, actions), chosen.reshape(angles.shape)
 
 
 @compiled
@@ -144,17 +154,19 @@ def _ask(
     learner: Any,
     rule: Rule,
     draws: np.random.Generator,
+    accelerations: tuple[float, ...],
     angles: Real,
     velocities: Real,
     q: Real,
-    accelerations: Real,
+    chosen: Real,
 ) -> None:
-    """Fill in Q (states, actions) and the actions' accelerations of so many states."""
+    """Fill in Q (states, actions) and the accelerations that are chosen in so many states."""
     for i in range(len(angles)):
         found = values(learner, locate(encoder, angles[i], velocities[i]))
-        q[i, 0], q[i, 1], q[i, 2] = found[0], found[1], found[2]
-        action = epsilon_greedy(found, rule.epsilon, rule.random_ties, draws.random())
-        accelerations[i] = ACCELERATIONS[action]
+        for action in range(len(accelerations)):
+            q[i, action] = found[action]
+        greedy = epsilon_greedy(found, rule.epsilon, rule.random_ties, draws.random())
+        chosen[i] = accelerations[greedy]
 
 
 def _frozen(setting: Setting) -> Rule:

@@ -37,25 +37,27 @@ def learn(
 
     A run whose values overflow has diverged: ``trajectory.diverged_at`` says when it first met a state
     whose values are not all finite. It learns no more from there on; what it does then means nothing.
+    With α = 0 nothing is learned either, and nothing remembered: δ is NaN.
     """
     td_errors = trajectory.td_error
     if first == 0:
         trajectory.diverged_at[0] = NEVER
     is_finite = trajectory.diverged_at[0] == NEVER
+    learns = is_finite and rule.step_size > 0.0
     # Observe starting state s
     place = locate(encoder, state.angle, state.angular_velocity)
     # Repeat:
     for t in range(first, last):
-        if is_finite:
+        if learns:
             before_choice(algorithm, encoder, learner, rule, td_errors, place)
 
         # Choose a from s using policy derived from Q
         q = values(learner, place)
-        if is_finite and not isfinite(q[0] + q[1] + q[2]):
+        if is_finite and not isfinite(sum(q)):
             trajectory.diverged_at[0] = t
-            is_finite = False
+            is_finite = learns = False
         action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
-        if is_finite:
+        if learns:
             after_choice(algorithm, encoder, learner, rule, td_errors, place, action)
 
         # Take action a, observe r, s′
@@ -68,9 +70,7 @@ def learn(
             t, state.angle, state.angular_velocity, place, q, action, rule.reward_scale * taken.told,
             next_place, taken.fell, taken.terminal,
         )  # fmt: skip
-        td_error = (
-            learn_from(algorithm, encoder, learner, rule, td_errors, step) if is_finite else nan
-        )
+        td_error = learn_from(algorithm, encoder, learner, rule, td_errors, step) if learns else nan
         record(trajectory, t, state, action, taken, td_error / rule.reward_scale)
 
         # s ← s′

@@ -14,16 +14,17 @@ from upswing.physics.jit import compiled
 from upswing.physics.tasks import HORIZONTAL
 from upswing.runs.success import SUCCESS
 from upswing.study.measured import Measures, Windows
+from upswing.study.physical import THESIS_TIME_STEP
 
 UPRIGHT = radians(20)
 """Half the width of *upright* [rad]."""
 
 STABLE_STEPS = 5_000
-"""A window this long without a fall (balancing) or mostly upright (full control) is stable [steps]."""
+"""A window this long without a fall, or mostly upright (full control), is stable [steps of 5 ms]."""
 
 END = 100_000
 """The last steps, in which a run *stands at the end* or does not: 8 min 20 s, so that a run that rises
-late can reach it; or its last fifth, if that is shorter [steps]."""
+late can reach it; or its last fifth, if that is shorter [steps of 5 ms]."""
 
 WINDOWS = 1_000
 """Into how many windows a run is divided, at most."""
@@ -36,19 +37,27 @@ NOTHING_LEARNED = copysign(nan, -1.0)
 bit and the same on every processor."""
 
 
-def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures:
+def measure(
+    trajectory: Trajectory, by_falls: bool, too_fast: float, time_step: float = THESIS_TIME_STEP
+) -> Measures:
     """What a run came to.
 
     Args:
         trajectory: the run.
         by_falls: whether a stretch without a fall is stable, or one that is mostly upright.
         too_fast: the speed at the horizontal above which nothing stops the pendulum [rad/s].
+        time_step: of the run [s]; where a length is said in steps of 5 ms, the same time is meant.
     """
+
+    def so_long(steps: int) -> int:
+        return max(1, round(steps * THESIS_TIME_STEP / time_step))
+
     steps = len(trajectory.angle)
     last = last_fifth(steps)
     falls, upright, above, reward = _sums(trajectory, last, steps)
-    first_stable = _first_stable(trajectory, by_falls, STABLE_STEPS, SUCCESS)
-    end = max(last, steps - END)
+    first_stable = _first_stable(trajectory, by_falls, so_long(STABLE_STEPS), SUCCESS)
+    end = max(last, steps - so_long(END))
+    early, half = min(so_long(5_000), steps), min(so_long(2_500), steps)
     length = steps - last
     below, recovered = _recoveries(trajectory, last, steps)
     swing_ups, speed, unstoppable = _arrivals(trajectory, 0, steps, too_fast)
@@ -60,8 +69,8 @@ def measure(trajectory: Trajectory, by_falls: bool, too_fast: float) -> Measures
         above_horizontal_share=float(above / length),
         mean_reward=float(reward / length),
         first_stable_step=None if first_stable < 0 else first_stable,
-        falls_first_5000=int(_sums(trajectory, 0, min(5_000, steps))[0]),
-        falls_2500_to_5000=int(_sums(trajectory, min(2_500, steps), min(5_000, steps))[0]),
+        falls_first_5000=int(_sums(trajectory, 0, early)[0]),
+        falls_2500_to_5000=int(_sums(trajectory, half, early)[0]),
         falls_after_stable=None
         if first_stable < 0
         else int(_sums(trajectory, first_stable, steps)[0]),

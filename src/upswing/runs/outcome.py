@@ -27,7 +27,7 @@ class Outcome(NamedTuple):
 def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) -> Outcome:
     """Measure a run of ``spec`` that ``setting`` has learned and ``trajectory`` holds."""
     too_fast = highest_stoppable_speed(setting.body)
-    measures = measure(trajectory, spec.task.judged_by == "falls", too_fast)
+    measures = measure(trajectory, spec.task.judged_by == "falls", too_fast, setting.body.time_step)
     if measures.diverged_at is None and not _is_finite(setting):
         # An overflow that no later step met.
         measures = measures._replace(diverged_at=spec.task.steps - 1)

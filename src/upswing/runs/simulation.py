@@ -13,6 +13,7 @@ from upswing.agents.policy import Rule
 from upswing.physics import tasks
 from upswing.physics.environment import State, Trajectory
 from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.physics.pendulum import body_of as body_of
 from upswing.physics.tasks import Task
 from upswing.runs import loop
 from upswing.study.spec import Spec
@@ -54,10 +55,10 @@ class Setting:
         )  # fmt: skip
 
 
-def body_of(spec: Spec) -> Pendulum:
-    """The pendulum under the reading R1."""
+def body_of_run(spec: Spec) -> Pendulum:
+    """The pendulum of a run, with φ measured from where its readings say (R1)."""
     upright = spec.readings.zero_of_angle == "upright"
-    return Pendulum(orientation=FROM_UPRIGHT if upright else FROM_HANGING)
+    return body_of(spec.task.pendulum, FROM_UPRIGHT if upright else FROM_HANGING)
 
 
 def prepare(spec: Spec, seed: int) -> Setting:
@@ -65,13 +66,17 @@ def prepare(spec: Spec, seed: int) -> Setting:
     readings, settings = spec.readings, spec.architecture
     options = settings.model_dump()
     actions, starts, weights, _, decisions = streams(seed)
+    body = body_of_run(spec)
     task = tasks.create(spec.task.kind, readings, spec.task.model_dump())
-    encoder = features.create(settings.coding, features.Plan(task, options, readings))
+    encoder = features.create(
+        settings.coding, features.Plan(task, options, readings, spec.task.tiles)
+    )
     scale = REWARD_SCALES[readings.reward_unit]
     learner = learners.create(
         settings.learner,
         learners.Beginning(
             encoder=encoder,
+            accelerations=body.accelerations,
             options=options,
             readings=readings,
             lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
@@ -88,7 +93,7 @@ def prepare(spec: Spec, seed: int) -> Setting:
         random_ties=readings.ties == "random",
     )
     return Setting(
-        body=body_of(spec),
+        body=body,
         task=task,
         encoder=encoder,
         rule=rule,
@@ -103,5 +108,8 @@ def prepare(spec: Spec, seed: int) -> Setting:
 def new_algorithm(spec: Spec, encoder: Encoder, draws: np.random.Generator) -> NamedTuple:
     """The algorithm of ``spec`` with nothing remembered."""
     options = spec.architecture.model_dump()
-    design = algorithms.Design(encoder, float(spec.discount), options, spec.readings, draws)
+    actions = len(spec.task.pendulum.accelerations)
+    design = algorithms.Design(
+        encoder, float(spec.discount), options, spec.readings, draws, actions
+    )
     return algorithms.create(spec.architecture.method, design)

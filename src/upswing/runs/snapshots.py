@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.agents.features import Encoder, locate
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.agents.learners import Learner
 
 MOMENTS = 40
@@ -23,6 +22,7 @@ class Snapshots(NamedTuple):
     q: Real  # in the unit of R3: (moments, angle parts, velocity parts, actions)
     owner: NDArray[np.int64]  # the module that owns a tile: (angle parts, velocity parts)
     angle_limit: float  # the grid covers ± this [rad]
+    velocity_limit: float  # … and ± this [rad/s]
 
 
 def moments(steps: int) -> NDArray[np.int64]:
@@ -35,28 +35,29 @@ def moments(steps: int) -> NDArray[np.int64]:
 
 def snapshots(encoder: Encoder, looked: list[tuple[int, Real]]) -> Snapshots:
     """What was looked at: (step, what ``look`` gave) of each moment."""
-    rows, columns, limit = encoder.picture
+    rows, columns, angle_limit, velocity_limit = encoder.picture
     owner = np.array([place.module for place in places(encoder)]).reshape(rows, columns)
     return Snapshots(
         steps=np.array([step for step, _ in looked]),
         q=np.stack([values for _, values in looked]),
         owner=owner,
-        angle_limit=limit,
+        angle_limit=angle_limit,
+        velocity_limit=velocity_limit,
     )
 
 
 def look(learner: Learner, encoder: Encoder) -> Real:
     """What a learner knows now: (angle parts, velocity parts, actions) of its encoder's picture."""
-    rows, columns, _ = encoder.picture
+    rows, columns, _, _ = encoder.picture
     return learner.action_values(places(encoder)).reshape(rows, columns, -1)
 
 
 @cache
 def places(encoder: Encoder) -> list[Any]:
     """The places at the middle of every part of an encoder's picture, a row of φ after the other."""
-    rows, columns, limit = encoder.picture
+    rows, columns, limit, fastest = encoder.picture
     angles = -limit + (np.arange(rows) + 0.5) * 2 * limit / rows
-    velocities = -VELOCITY_LIMIT + (np.arange(columns) + 0.5) * 2 * VELOCITY_LIMIT / columns
+    velocities = -fastest + (np.arange(columns) + 0.5) * 2 * fastest / columns
     return [
         locate(encoder, float(angle), float(velocity))
         for angle in angles

@@ -9,7 +9,6 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-import numpy as np
 from safetensors.numpy import save
 
 from upswing.physics.environment import Trajectory, empty_trajectory
@@ -117,8 +116,6 @@ def learn(spec: Spec, seed: int, trajectory: Trajectory) -> Run:
         setting.advance(trajectory, first, last)
         seconds += perf_counter() - begin
         looked.append((last, look(setting.learner, setting.encoder)))
-    if spec.alpha is None:
-        trajectory.td_error.fill(np.nan)  # a control has values, but learns nothing
     return Run(trajectory, setting, snapshots(setting.encoder, looked), seconds)
 
 

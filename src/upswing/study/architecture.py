@@ -3,12 +3,14 @@
 Each of the three is a file; its options, and what it goes with, stand there in a class ``Options``.
 """
 
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, SerializeAsAny, model_validator
 
 from upswing.study.declared import Family, part_name, part_schema
 from upswing.study.names import Name
+from upswing.study.task import Task
 from upswing.study.values import Discount, Share, Strict
 
 Features = Literal["tile", "tiles", "state"]
@@ -47,6 +49,18 @@ class Architecture(Strict):
 
     def check(self) -> None:
         """Raise ``ValueError`` if what is chosen does not go together; each part checks its own."""
+
+    def check_with(self, task: Task) -> None:
+        """Raise ``ValueError`` if it does not go with a task; each part checks its own."""
+
+    def misfits(self, task: Task) -> Iterator[str]:
+        """Why it does not go with a task, by each part that says so."""
+        for part in type(self).__mro__:
+            if "check_with" in vars(part):
+                try:
+                    part.check_with(self, task)  # type: ignore[attr-defined]
+                except ValueError as error:
+                    yield str(error)
 
     def inner_learners(self) -> tuple[str, ...]:
         """The learners that the learner is made of, by name."""

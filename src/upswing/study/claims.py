@@ -63,7 +63,7 @@ def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
     try:
         claims = Claims.model_validate(content).root
     except ValidationError as error:
-        raise BadInput(explained(Claims, error, lambda _: str(path))) from None
+        raise BadInput(explained(Claims, error, lambda *_: str(path))) from None
     if study is not None:
         check_cells(dict(cells_of_claims(claims)), study, path)
     return claims

@@ -9,11 +9,12 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationError
 from upswing.study.architecture import AnyArchitecture
 from upswing.study.declared import part_name
 from upswing.study.errors import BadInput, explained, near, problem
+from upswing.study.extends import joined, sources_of
 from upswing.study.names import Alpha, Name, Text, alpha_text
+from upswing.study.physical import PendulumOptions
 from upswing.study.readings import Readings
 from upswing.study.task import AnyTask
 from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
-from upswing.study.yaml_file import read_yaml
 
 ADOPTED = "adopted"
 """The learner that no configuration names: an agent from elsewhere, which somebody has to vouch for."""
@@ -113,29 +114,50 @@ class Study(Strict):
     )
 
 
+def pendulum_of_bound(study: Study) -> PendulumOptions:
+    """The pendulum that the bound of a study is about: that of its first task of full control."""
+    upright = (task for task in study.tasks.values() if task.judged_by == "upright")
+    return next((task.pendulum for task in upright), PendulumOptions())
+
+
 def load(path: Path) -> Study:
     """The study written in a YAML file; ``BadInput`` with all its problems otherwise."""
-    return validated({str(path): read_yaml(path)})
+    sources = sources_of(path)
+    return validated({str(path): joined(sources)}, written=sources)
 
 
 def from_snakemake(files: Sequence[str | Path], merged: Mapping[str, Any]) -> Study:
     """The study of a Snakemake run: its configuration files, and what ``--config`` laid over them."""
-    contents = {str(path): read_yaml(Path(path)) for path in files}
+    written = {file: sources_of(Path(file)) for file in map(str, files)}
+    contents = {file: joined(sources) for file, sources in written.items()}
+    said = [content for sources in written.values() for content in sources.values()]
     overlaid = {
         key: value
         for key, value in merged.items()
-        if not any(content.get(key) == value for content in contents.values())
+        if not any(content.get(key) == value for content in said)
     }
-    return validated({**contents, "--config": overlaid} if overlaid else contents)
+    overlay = {"--config": overlaid} if overlaid else {}
+    sources = {name: content for of in written.values() for name, content in of.items()}
+    return validated({**contents, **overlay}, written={**sources, **overlay})
 
 
-def validated(contents: Mapping[str, Mapping[str, Any]]) -> Study:
-    """The study written in several sources, each replacing whole keys of those before it."""
+def validated(
+    contents: Mapping[str, Mapping[str, Any]],
+    written: Mapping[str, Mapping[str, Any]] | None = None,
+) -> Study:
+    """The study in several sources, each replacing whole keys of those before it.
+
+    Args:
+        contents: what they say by name.
+        written: what stands in the files themselves, where one extends another: whom a problem names.
+    """
     data = {key: value for content in contents.values() for key, value in content.items()}
-    origin = {key: source for source, content in contents.items() for key in content}
+    files = contents if written is None else written
+    origin = {place: source for source, content in files.items() for place in _places(content)}
 
-    def source_of(key: str) -> str:
-        return origin.get(key, " + ".join(contents))
+    def source_of(*place: str) -> str:
+        known = (origin[place[:end]] for end in (2, 1) if place[:end] in origin)
+        return next(known, " + ".join(files))
 
     try:
         study = Study.model_validate(data)
@@ -146,6 +168,13 @@ def validated(contents: Mapping[str, Mapping[str, Any]]) -> Study:
     if problems:
         raise BadInput(problems)
     return study
+
+
+def _places(content: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """The keys of a file and those one below."""
+    for key, value in content.items():
+        yield (key,)
+        yield from ((key, str(below)) for below in value) if isinstance(value, dict) else ()
 
 
 def _contradictions(study: Study, source: str) -> Iterator[str]:
@@ -172,6 +201,9 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
                 yield f"{source}: {place}.alphas: missing: {name} learns with an α in (0, 1]"
         for task in experiment.tasks:
             for name in experiment.architectures:
+                if task in study.tasks and name in study.architectures:
+                    for right in study.architectures[name].misfits(study.tasks[task]):
+                        yield problem(source, place, f"{task} with {name}", right)
                 for alpha in experiment.alphas or (None,):
                     earlier = cells.setdefault((task, name, alpha), number)
                     if earlier != number:

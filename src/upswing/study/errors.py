@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
-from typing import Any, get_args
+from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, RootModel, ValidationError
 from pydantic_core import ErrorDetails
@@ -45,15 +45,14 @@ class BadInput(ValueError):
 
 
 def explained(
-    model: type[BaseModel], error: ValidationError, source_of: Callable[[str], str]
+    model: type[BaseModel], error: ValidationError, source_of: Callable[..., str]
 ) -> list[str]:
     """One line for each problem of ``error`` with input for ``model``.
 
-    ``source_of`` names the file that a top-level key is from ("" for none).
+    ``source_of`` names the file that a key is from, by its place: the top-level key first.
     """
     return [
-        _explain(source_of(str(details["loc"][0]) if details["loc"] else ""), model, details)
-        for details in error.errors()
+        _explain(source_of(*map(str, details["loc"])), model, details) for details in error.errors()
     ]
 
 
@@ -135,14 +134,23 @@ def _fields_at(model: type[BaseModel], place: Place) -> list[str]:
     if issubclass(model, RootModel):
         current = model.model_fields["root"].annotation
     for part in place:
+        current = _bare(current)
         if isinstance(current, type) and issubclass(current, BaseModel):
             field = current.model_fields.get(str(part))
             current = field.annotation if field else None
         else:  # a list or a mapping: its elements are of the last type argument
             current = next((a for a in reversed(get_args(current)) if a is not Ellipsis), None)
+    current = _bare(current)
     if isinstance(current, type) and issubclass(current, BaseModel):
         return list(current.model_fields)
     return []
+
+
+def _bare(annotation: Any) -> Any:
+    """A type without what else is said of it."""
+    while get_origin(annotation) is Annotated:
+        annotation = get_args(annotation)[0]
+    return annotation
 
 
 def _is_number(value: Any) -> bool:

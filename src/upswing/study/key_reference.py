@@ -54,6 +54,10 @@ def reference() -> str:
     sections = [HEAD, _section("Top level", described)]
     titles = {
         "Task": "A task, below `tasks.<name>`",
+        "PendulumOptions": "The pendulum, below `pendulum` of a task",
+        "TrackOptions": "The track of the cart, below `track` of a task",
+        "StartOptions": "The starts, below `start` of a task",
+        "TileOptions": "The tiles, below `tiles` of a task",
         "Architecture": "An architecture, below `architectures.<name>`",
         "Experiment": "An experiment, an item of `experiments`",
         "Readings": "Readings, below `readings`",
@@ -128,4 +132,6 @@ def _limits(field: dict[str, Any]) -> str:
 def _shown(default: Any) -> str:
     if default in (None, [], ()):
         return "none"
+    if isinstance(default, dict):
+        return "the thesis’s"
     return f"`{str(default).lower() if isinstance(default, bool) else default}`"

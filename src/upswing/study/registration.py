@@ -61,7 +61,7 @@ def load_registration(path: Path) -> tuple[Entry, ...]:
     try:
         return Registration.model_validate(read_yaml(path)).entries
     except ValidationError as error:
-        raise BadInput(explained(Registration, error, lambda _: str(path))) from None
+        raise BadInput(explained(Registration, error, lambda *_: str(path))) from None
 
 
 def of(study: Study, claims: Mapping[str, Claim], sweeps: Mapping[str, Sweep]) -> Registered:

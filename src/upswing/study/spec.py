@@ -86,7 +86,7 @@ def parse(text: str) -> Spec:
     try:
         spec = Spec.model_validate(content)
     except ValidationError as error:
-        raise BadInput(explained(Spec, error, lambda _: "spec")) from None
+        raise BadInput(explained(Spec, error, lambda *_: "spec")) from None
     if (spec.alpha is None) != (not spec.architecture.learns):
         raise BadInput(
             [f"spec: alpha: {shown(spec.alpha)}: a control has null, a learner a number"]

@@ -123,7 +123,7 @@ def load_sweeps(path: Path, study: Study) -> Mapping[str, Sweep]:
     try:
         sweeps = Sweeps.model_validate(read_yaml(path)).root
     except ValidationError as error:
-        raise BadInput(explained(Sweeps, error, lambda _: str(path))) from None
+        raise BadInput(explained(Sweeps, error, lambda *_: str(path))) from None
     known, cells = set(Readings.model_fields), Matrix(study).cells
     problems = []
     for name, sweep in sweeps.items():

@@ -11,6 +11,13 @@ from pydantic import Field, SerializeAsAny
 
 from upswing.study.declared import Family, part_name, part_schema
 from upswing.study.names import Name
+from upswing.study.physical import (
+    THESIS_TIME_STEP,
+    PendulumOptions,
+    StartOptions,
+    TileOptions,
+    TrackOptions,
+)
 from upswing.study.values import NotNegative, Steps, Strict
 
 
@@ -24,7 +31,15 @@ class Task(Strict):
     kind: Annotated[str, part_name("tasks"), part_schema("tasks")] = Field(
         description="balancing: reset beyond 90°; full-control: any start, never reset."
     )
-    steps: Steps = Field(description="Number of steps of 5 ms in one run.")
+    steps: Steps = Field(description="Number of time steps in one run, of 5 ms in the thesis.")
+    pendulum: PendulumOptions = Field(
+        default=PendulumOptions(), description="What moves, where it is not the thesis's."
+    )
+    track: TrackOptions = Field(default=TrackOptions(), description="The ends of the cart's track.")
+    start: StartOptions = Field(default=StartOptions(), description="Where a run starts.")
+    tiles: TileOptions = Field(
+        default=TileOptions(), description="How the state is cut, where it is not as in the thesis."
+    )
     velocity_weight: NotNegative = Field(
         default=0.0, description="Beyond the thesis: −w·φ̇² is added to what is learned from [s²]."
     )
@@ -45,7 +60,7 @@ class Task(Strict):
     """Angles from which a policy is tried out, at rest [rad]."""
 
     greedy_steps: ClassVar[int] = 4_000
-    """Number of steps for which a policy is followed from each start: 20 s."""
+    """Number of steps of 5 ms for which a policy is followed from each start: 20 s."""
 
     greedy_judged: ClassVar[int] = 1_000
     """Number of these steps, the last ones, that are judged: 5 s."""
@@ -55,6 +70,10 @@ class Task(Strict):
 
     first_measures: ClassVar[tuple[str, ...]] = ("upright_share", "above_horizontal_share", "falls")
     """Measures that a table of runs shows first; it is sorted by the first of them, the best first."""
+
+    def steps_of(self, steps: int) -> int:
+        """So many steps of the thesis, 5 ms each, in steps of this task: the same time."""
+        return max(1, round(steps * THESIS_TIME_STEP / self.pendulum.time_step))
 
 
 class NamedTask(Task):

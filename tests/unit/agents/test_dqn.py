@@ -17,7 +17,6 @@ from upswing.agents.replay import begin, collect, empty_replay, end, sample
 from upswing.physics import tasks
 from upswing.physics.environment import State, empty_trajectory, move
 from upswing.physics.jit import compiled
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.evaluation import evaluate
 from upswing.runs.simulation import prepare, streams
 from upswing.study.architecture import architecture_named, architecture_of
@@ -176,8 +175,8 @@ def test_it_records_and_remembers_what_the_environment_did(kind, reset):
             begun, rewards, decided = state, 0.0, t
         else:
             assert action == trajectory.action[t - 1]
-        after = seen = move(body, task, state, ACCELERATIONS[action])
-        fell = tasks.fallen(task, after.angle)
+        after = seen = move(body, task, state, body.accelerations[action])
+        fell = tasks.fallen(task, after.angle, after.cart_position)
         if fell:
             after = State(*tasks.start(task, starts), 0.0, 0.0)
             seen = after if reset == "reset" else seen

@@ -6,8 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from upswing.agents.features import Place, locate
-from upswing.agents.features.grid import BALANCING_MODULE, UPSWING_MODULE, Tiles, tiles_for
+from upswing.agents.features.grid import (
+    BALANCING_MODULE,
+    UPSWING_MODULE,
+    Columns,
+    ThesisColumns,
+    Tiles,
+    tiles_for,
+)
 from upswing.physics import tasks
+from upswing.study.physical import TileOptions
 from upswing.study.readings import Readings
 
 angles = st.floats(-np.pi, np.pi, exclude_max=True)
@@ -95,6 +103,28 @@ def test_a_balancing_module_has_the_tiles_of_the_balancing_task():
 
 
 def test_a_tile_includes_its_lower_edge():
-    tiles = Tiles(4, 2.0, 2, False)
+    tiles = Tiles(4, 2.0, Columns(20, 20.0), 2, False)
     assert locate(tiles, 0.0, 0.0) == Place(0, (2 * 20 + 10,))
     assert locate(tiles, -1e-9, -1e-9) == Place(0, (1 * 20 + 9,))
+
+
+@pytest.mark.parametrize("modular", [False, True])
+def test_what_is_known_while_compiling_changes_no_tile(modular):
+    known = grid_of("full-control", modular, HALF_TURN)
+    assert isinstance(known.columns, ThesisColumns)
+    asked = known._replace(columns=Columns(20, 20.0))
+    rng = np.random.default_rng(3)
+    for angle, velocity in rng.uniform((-4, -30), (4, 30), (2_000, 2)).tolist():
+        assert locate(known, angle, velocity) == locate(asked, angle, velocity)
+    for velocity in np.arange(-22.0, 23.0):
+        assert locate(known, 0.1, velocity) == locate(asked, 0.1, velocity)
+
+
+def test_other_tiles_of_the_velocity_are_those_asked_for():
+    task = tasks.create("full-control", HALF_TURN)
+    options = TileOptions(velocity_parts=4, velocity_limit=8)
+    tiles = tiles_for(task, False, HALF_TURN, options)
+    columns = [
+        locate(tiles, 0.0, velocity).tiles[0] % 4 for velocity in (-99, -8, -4.1, -3.9, 3, 5, 99)
+    ]
+    assert columns == [0, 0, 0, 1, 2, 3, 3]

@@ -71,9 +71,9 @@ def test_random_start_velocities_leave_the_angles_as_they_were():
 
 def test_only_balancing_falls():
     balancing, full = (tasks.create(kind, Readings()) for kind in ("balancing", "full-control"))
-    assert tasks.fallen(balancing, np.radians(90.1))
-    assert not tasks.fallen(balancing, np.radians(-89.9))
-    assert not tasks.fallen(full, np.pi)
+    assert tasks.fallen(balancing, np.radians(90.1), 0.0)
+    assert not tasks.fallen(balancing, np.radians(-89.9), 0.0)
+    assert not tasks.fallen(full, np.pi, 0.0)
 
 
 @given(st.floats(-2.9 * np.pi, 2.9 * np.pi))

@@ -49,6 +49,31 @@ def test_a_run_learned_here_is_shown_too():
     assert short.plot().axes[0].get_title(loc="left") == "The first 300 steps"
 
 
+def test_the_map_is_of_the_run_s_own_actions_and_velocities():
+    own = upswing.train(
+        {"kind": "full-control", "tiles": {"velocity_limit": 14}}, "table", 0.5, steps=300,
+        pendulum={"length": 0.4, "accelerations": [-20, -10, 0, 10, 20]},
+    )  # fmt: skip
+    _, policy, *_, scale = own.plot().axes
+    assert policy.images[0].get_extent() == [-180, 180, -14, 14]
+    names = [label.get_text() for label in scale.get_yticklabels()]
+    assert names == ["−20", "−10", "0", "+10", "+20", "equal"]
+    shades = policy.images[0].cmap(range(6))[:, :3] * 255
+    np.testing.assert_allclose(shades[[0, 2, 4]], [(0, 114, 178), (221, 221, 221), (213, 94, 0)])
+    assert len(np.unique(shades.round(), axis=0)) == 6
+
+
+def test_of_many_actions_some_are_named():
+    many = upswing.train(
+        "full-control", "table", 0.5, steps=300, pendulum={"accelerations": [*range(-10, 11)]}
+    )
+    scale = many.plot().axes[-1]
+    names = [label.get_text() for label in scale.get_yticklabels()]
+    assert names == [f"−{n}" for n in range(10, 0, -2)] + ["0"] + [
+        f"+{n}" for n in range(2, 11, 2)
+    ] + ["equal"]  # fmt: skip
+
+
 def test_a_run_that_diverged_is_shown():
     one = upswing.train(
         "full-control", "networks-30", 1, steps=6_000,

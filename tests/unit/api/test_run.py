@@ -266,6 +266,57 @@ def test_what_cannot_be_trained_is_said_as_it_was_asked(asked, said):
     assert said in says(lambda: upswing.train(*asked))
 
 
+@pytest.mark.parametrize(
+    ("pendulum", "said"),
+    [
+        ({"lenght": 1}, "train: tasks.balancing.pendulum.lenght: unknown key"),
+        ({"length": 0}, "train: tasks.balancing.pendulum.length: 0: must be"),
+        ({"accelerations": [1, 2]}, "at least one must be negative and one positive"),
+    ],
+)
+def test_a_pendulum_that_cannot_be_is_said(pendulum, said):
+    assert said in says(lambda: upswing.train("balancing", "table", 1, pendulum=pendulum))
+
+
+OWN = {"length": 0.4, "time_step": 0.01, "accelerations": [-20, -10, 0, 10, 20]}
+
+
+def test_another_pendulum_is_trained_asked_and_followed():
+    one = upswing.train("full-control", "table", 0.5, steps=600, pendulum=OWN)
+    pushes = (-20.0, -10.0, 0.0, 10.0, 20.0)
+    assert one.policy.accelerations == pushes
+    assert one.spec.task.pendulum.mass == 0.1  # as the task has it
+    angles = np.linspace(-3, 3, 200)
+    assert one.values(angles, 1.0).shape == (200, 5)
+    assert set(one.policy(angles, 1.0)) <= set(pushes)
+    assert str(pushes) in repr(one.policy)
+    path = one.simulate(0.1, seconds=2)
+    assert len(path) == 200
+    assert path["time"].iloc[1] == 0.01
+    # ẋ(t + dt) = ẋ + ẍ dt (eq. 25) with the run's own actions and time step.
+    expected = (
+        path["cart_velocity"].iloc[:-1].to_numpy() + 0.01 * path["acceleration"].to_numpy()[:-1]
+    )
+    np.testing.assert_allclose(path["cart_velocity"].iloc[1:], expected, atol=1e-5)
+    by_keys = upswing.train(
+        {"name": "full-control", "kind": "full-control", "steps": 600, "pendulum": OWN},
+        "table",
+        0.5,
+    )
+    assert by_keys.spec == one.spec
+    assert by_keys.measures["digest"] == one.measures["digest"]
+    assert one.replay().id == one.id
+
+
+def test_a_study_trains_another_pendulum_too(study):
+    one = study.train("balancing", "table", 0.1, 1, steps=300, pendulum={"gravity": 3.7})
+    assert one.spec.task.pendulum.gravity == 3.7
+    assert (
+        one.measures["digest"]
+        != study.train("balancing", "table", 0.1, 1, steps=300).measures["digest"]
+    )
+
+
 def test_every_architecture_of_the_thesis_can_be_trained():
     for name, keys in upswing.api.thesis.ARCHITECTURES.items():
         alpha = None if keys["learner"] == "control" else 0.5

@@ -81,7 +81,7 @@ def test_two_folders_are_a_mistake_in_one_line(words, tmp_path, capsys):
 def test_what_needs_nothing_is_written_where_it_was_asked_for(tmp_path, monkeypatch, name, writes):
     written = []
 
-    def write(folder):
+    def write(folder, *_):
         written.append(folder)
         return pd.DataFrame({"success": [True, False]})
 

@@ -59,7 +59,7 @@ def test_a_shade_for_text_is_the_lightest_of_its_hue_that_can_be_read(shade):
 def test_the_last_tick_stands_at_the_end_of_the_axis(last):
     figure, axes = plt.subplots()
     axes.set_xlim(0, last)
-    steps_axis(axes)
+    steps_axis(axes, [])
     figure.canvas.draw()
     ticks = axes.get_xticks()
     assert (ticks[0], ticks[-1]) == (0, last)

@@ -22,7 +22,7 @@ from upswing.optimal.viability import (
 from upswing.physics import pendulum
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, HORIZONTAL
+from upswing.physics.tasks import HORIZONTAL
 from upswing.runs.metrics import UPRIGHT
 
 BODY = Pendulum()
@@ -38,7 +38,7 @@ def stepped(angle, velocity, action):
     """The step of the thesis on arrays, with numpy's own sine and cosine (eq. 13–23), within one turn."""
     inertia = BODY.mass * BODY.length**2 / 3
     lever = BODY.mass * BODY.length / 2
-    torque = lever * (BODY.gravity * np.sin(angle) + ACCELERATIONS[action] * np.cos(angle))
+    torque = lever * (BODY.gravity * np.sin(angle) + BODY.accelerations[action] * np.cos(angle))
     velocity = velocity + (torque - BODY.friction * velocity) / inertia * BODY.time_step
     angle = angle + velocity * BODY.time_step
     return (angle + np.pi) % (2 * np.pi) - np.pi, velocity

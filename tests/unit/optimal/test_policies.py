@@ -18,7 +18,7 @@ from upswing.optimal.tile_search import projected, search
 from upswing.optimal.value_iteration import promised
 from upswing.physics import pendulum
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, HORIZONTAL
+from upswing.physics.tasks import HORIZONTAL
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.simulation import streams
 from upswing.study.task import kind_of_task
@@ -51,7 +51,7 @@ def test_following_against_a_plain_transcription():
         draw = draws.random()
         best = np.argmax([promised(policy, BODY, angle, velocity, action) for action in range(3)])
         action = int(draw / 0.2 * 3) if draw < 0.2 else int(best)
-        angle, velocity = pendulum.step(BODY, angle, velocity, ACCELERATIONS[action])
+        angle, velocity = pendulum.step(BODY, angle, velocity, BODY.accelerations[action])
         angle = turned(angle)
 
 
@@ -79,7 +79,9 @@ def test_a_score_against_a_plain_transcription(kind):
             tile = locate(thesis_tiles(kind), angle, velocity).tiles[0]
             seen[tile] += 1
             upright += t >= 3_000 and abs(angle) <= UPRIGHT
-            angle, velocity = pendulum.step(BODY, angle, velocity, ACCELERATIONS[actions[tile]])
+            angle, velocity = pendulum.step(
+                BODY, angle, velocity, BODY.accelerations[actions[tile]]
+            )
             angle = turned(angle)
             rewards -= angle**2 if t >= 3_000 else 0
             if kind == "balancing" and abs(angle) > HORIZONTAL:
@@ -121,7 +123,8 @@ def test_both_tables_are_written(tmp_path, monkeypatch):
     monkeypatch.setattr(tile_rows, "SEEDS", range(1000, 1001))
     monkeypatch.setattr(tile_rows, "BUDGET", 20)
     monkeypatch.setattr(tile_rows, "FURTHER", 20)
-    table.write_bound(tmp_path, (TINY, SMALL))
+    monkeypatch.setattr(table, "GRIDS", (TINY, SMALL))
+    table.write_bound(tmp_path)
     bound = pd.read_parquet(tmp_path / table.BOUND)
     assert {"quantity", "task", "policy", "discount", "grid", "value", "unit", "note"} == set(bound)
     assert set(bound.grid) == {"36×21", "72×81", "exact", "tiles"}

@@ -55,6 +55,40 @@ def test_the_recording_of_a_claim_states_it_its_verdict_and_why_these_runs(resul
     assert "200 frames a second" in text
 
 
+def test_the_recording_of_a_claim_has_its_pendulum_s_length_and_speed(tmp_path):
+    import rerun as rr
+
+    own = {"length": 0.4, "time_step": 0.01, "accelerations": [-20, -10, 0, 10, 20]}
+    study = {
+        "seeds": 3,
+        "readings": {"zero_of_angle": "hanging"},
+        "tasks": {"balancing": {"kind": "balancing", "steps": 9_000, "pendulum": own}},
+        "architectures": {"table": {"learner": "table"}},
+        "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [1]}],
+    }
+    study_of(study, tmp_path)
+    path = write_comparison(Results(tmp_path), CLAIMS, "claim-C2")
+    text = text_of(path)
+    assert "100 frames a second" in text
+    assert "the first and the last 1,250 steps" in text
+    found = read_back(path)
+    for rank in ("worst", "median", "best"):
+        rods = found[f"/{rank}/pendulum/rod"]["LineStrips2D:strips"]
+        assert [time["step"] for time, _ in rods][:3] == [0, 2, 4]
+        for time, ((base, tip),) in rods[:20]:
+            assert np.linalg.norm(np.subtract(tip, base)) == pytest.approx(0.4, rel=1e-6), time
+            assert tip[1] > base[1]  # downwards: φ = 0 hangs under this reading
+    reader = rr.chunk.RrdReader(path)
+    (store,) = reader.blueprints()
+    speeds = [
+        batch["TimePanelBlueprint:fps"].to_pylist()
+        for chunk in reader.stream(store=store)
+        for batch in [chunk.to_record_batch()]
+        if "TimePanelBlueprint:fps" in batch.schema.names
+    ]
+    assert speeds == [[[100.0]]]
+
+
 def test_the_recording_of_a_claim_is_judged_by_its_own_runs_and_words_alone(results, tmp_path):
     """It needs no table, and so waits for none."""
     folder = tmp_path / "without-tables"

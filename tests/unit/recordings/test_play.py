@@ -3,6 +3,7 @@
 import sys
 import time
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 import pytest
@@ -12,11 +13,14 @@ from tests.helpers import beyond_spec, make_spec
 from tests.unit.recordings.test_browsing import DRIVERS
 from tests.unit.recordings.test_watch import rows
 from upswing.cli.main import main
+from upswing.physics.environment import empty_trajectory
 from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
 from upswing.recordings import play as play_module
 from upswing.recordings.play import Start, follow, in_words, learned_of
 from upswing.recordings.screenshots import headless_viewer, wait_until_loaded
-from upswing.recordings.slide import HEIGHT, STEPS_A_PICTURE, WIDTH, Slide
+from upswing.recordings.slide import HEIGHT, WIDTH, Slide
+from upswing.runs.learned import Learned
+from upswing.runs.simulation import prepare
 from upswing.runs.train import train
 from upswing.study.errors import BadInput
 
@@ -78,6 +82,71 @@ def test_a_fall_ends_the_task_that_it_ends(folder):
     assert f"It fell at {played.steps * 0.005:.2f} s, which ends balancing." in in_words(played)
     stands = follow(learned, Start(5))
     assert in_words(stands).startswith("It stayed upright, at most ")
+
+
+def test_another_pendulum_keeps_its_own_time():
+    own = {"length": 0.4, "time_step": 0.01, "accelerations": (-20, -10, 0, 10, 20)}
+    spec = beyond_spec(steps=500, task={"pendulum": own})
+    setting = prepare(spec, 0)
+    setting.advance(empty_trajectory(500), 0, 500)
+    learned = Learned(spec, setting.learner.learned)
+    calm, pushed = (
+        follow(learned, Start(10, push=push, at=1, seconds=3)).trajectory for push in (0, 2)
+    )
+    assert len(calm.angle) == 300
+    np.testing.assert_array_equal(calm.angle[:100], pushed.angle[:100])
+    change = pushed.angular_velocity[100] - calm.angular_velocity[100]
+    assert change == pytest.approx(2, abs=1e-5)
+    played = follow(learned, Start(10, push=2, at=1, seconds=3))
+    assert "The push of +2 rad/s at 1 s: " in in_words(played)
+    # Upright for half a second, and no shorter.
+    for steps, said in ((50, "It was upright after 1.00 s."), (49, "It did not get upright.")):
+        angle = np.full(300, np.pi, np.float32)
+        angle[100 : 100 + steps] = 0
+        moved = played.trajectory._replace(angle=angle)
+        after = in_words(played._replace(trajectory=moved, start=Start(180, seconds=3)))
+        assert after.startswith(said)
+    with pytest.raises(BadInput, match=r"--seconds: 0\.001: must be a time from 0\.01 to 600 s"):
+        follow(learned, Start(10, seconds=0.001))
+
+
+@pytest.mark.parametrize(
+    ("at_end", "limit", "said"),
+    [
+        ("falls", 0.05, "The cart came to the end of its track at "),
+        ("falls", 1e5, "It fell at "),
+        ("stops", 0.05, "It fell at "),
+    ],
+)
+def test_an_end_of_the_track_where_the_task_ends_is_said(at_end, limit, said):
+    track = {"limit": limit, "at_end": at_end}
+    spec = beyond_spec("balancing", task={"track": track}, readings={"ties": "first"})
+    learned = Learned(spec, prepare(spec, 0).learner.learned)  # which pushes to the left for ever
+    played = follow(learned, Start(-5, seconds=5))
+    assert played.ends_in_fall
+    assert in_words(played).split(". ")[-1].startswith(said)
+
+
+@pytest.mark.parametrize("time_step", [0.005, 0.01, 0.003, 0.0001, 0.1])
+def test_pictures_follow_each_other_in_real_time(time_step):
+    steps = round(3 / time_step)
+    slide = Slide(Pendulum(time_step=time_step), empty_trajectory(steps), None, 180)
+    times = np.array(slide.in_real_time) * time_step
+    assert len(times) == 75
+    due = np.minimum(0.04 * np.arange(75), (steps - 1) * time_step)
+    assert np.abs(times - due).max() <= time_step * (0.5 + 1e-9)
+
+
+def test_a_slide_shows_a_long_pendulum_whole_and_the_end_of_its_track():
+    trajectory = empty_trajectory(10)
+    slides = [
+        np.asarray(Slide(Pendulum(length=length), trajectory, None, 180, track).moment(0)).astype(
+            int
+        )
+        for length, track in ((0.2, inf), (2.0, inf), (2.0, 1.0))
+    ]
+    np.testing.assert_allclose(slides[0], slides[1], atol=100)  # but for how lines are rounded
+    assert (np.abs(slides[2] - slides[1]) > 100).sum() > 100
 
 
 def test_a_run_that_diverged_is_said_to_mean_nothing(good):
@@ -198,7 +267,7 @@ def test_a_slide_shows_the_pendulum_where_it_is(good, orientation):
     height = np.flatnonzero(red.any(axis=1)).mean()
     above = height < 0.6 * HEIGHT
     assert above == (orientation == FROM_UPRIGHT)
-    assert STEPS_A_PICTURE * 5 == 40
+    assert slide.in_real_time == [0, 8, 16]
 
 
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")

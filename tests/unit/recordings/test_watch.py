@@ -14,7 +14,7 @@ import psutil
 import pytest
 from rerun.experimental import ViewerClient
 
-from tests.helpers import make_spec
+from tests.helpers import beyond_spec, make_spec
 from tests.unit.recordings.test_browsing import DRIVERS
 from upswing.cli.main import main
 from upswing.physics.environment import empty_trajectory
@@ -64,11 +64,10 @@ def rows(path):
     return found
 
 
-def drawn(path, size, shown):
+def drawn(path, size, shown, spec):
     """The rows of a run that is drawn in pieces of so many steps."""
-    spec = make_spec("balancing", "table", 0.1, steps=STEPS)
     setting, trajectory = prepare(spec, 0), empty_trajectory(STEPS)
-    live = Live(spec, setting.body, Plan.of(shown, "shown"), trajectory)
+    live = Live(spec, setting.body, Plan.of(shown, "shown", setting.body.time_step), trajectory)
     live.remember()
     known = snapshots(setting.encoder, [(0, look(setting.learner, setting.encoder))])
     for first in range(0, STEPS, size):
@@ -80,13 +79,28 @@ def drawn(path, size, shown):
     return rows(path)
 
 
-@pytest.mark.parametrize("share", [1.0, 0.3, 0.7])
-def test_what_is_drawn_in_pieces_is_what_is_drawn_at_once(tmp_path, share):
+OWN = beyond_spec(
+    steps=STEPS,
+    task={
+        "pendulum": {"length": 0.4, "time_step": 0.01, "accelerations": (-20, -10, 0, 10, 20)},
+        "track": {"limit": 0.5},
+    },
+)
+
+
+@pytest.mark.parametrize(
+    ("spec", "share"),
+    [
+        *((make_spec("balancing", "table", 0.1, STEPS), share) for share in (1.0, 0.3, 0.7)),
+        (OWN, 0.7),
+    ],
+)
+def test_what_is_drawn_in_pieces_is_what_is_drawn_at_once(tmp_path, spec, share):
     shown = np.arange(STEPS) % 100 >= 100 * (1 - share)
-    whole = drawn(tmp_path / "whole.rrd", STEPS, shown)
+    whole = drawn(tmp_path / "whole.rrd", STEPS, shown, spec)
     assert {entity for entity, _ in whole} >= {"/angle", "/pendulum/rod", "/phase/trail", "/events"}
     for size in (8, 37, 1_000):
-        pieces = drawn(tmp_path / f"{size}.rrd", size, shown)
+        pieces = drawn(tmp_path / f"{size}.rrd", size, shown, spec)
         assert pieces == whole, size
 
 
@@ -107,25 +121,18 @@ def test_the_watched_run_is_the_stored_run_bit_for_bit(results, tmp_path, capsys
 
 
 def test_another_length_is_another_run(results, tmp_path, capsys):
-    asked = [
-        "watch",
-        RUNS[0],
-        "--steps",
-        "900",
-        "--speed",
-        "fast",
-        "--results",
-        str(results.folder),
-    ]
+    asked = ["watch", RUNS[0], "--steps", "900", "--speed", "fast"]
+    asked += ["--results", str(results.folder)]
     assert main([*asked, "--save", str(tmp_path / "watched.rrd")]) == 0
     assert "no run of this specification is stored" in capsys.readouterr().out
 
 
 def test_what_is_shown_of_a_run_depends_on_the_speed():
     steps = 100_000
+    task = make_spec(steps=steps).task
     for speed in (REAL, 10.0):
-        assert np.array_equal(Pace.of(speed, steps).plan(steps).frames.steps[:-1], np.arange(steps))
-    fast = Pace.of(FAST, steps)
+        assert np.array_equal(Pace.of(speed, task).plan(steps).frames.steps[:-1], np.arange(steps))
+    fast = Pace.of(FAST, task)
     shown = fast.plan(steps).frames
     assert fast.size == 1_000
     assert (~shown.gap).sum() == 100 * STRETCH
@@ -133,12 +140,21 @@ def test_what_is_shown_of_a_run_depends_on_the_speed():
     assert set(range(99_550, 100_000)) <= set(shown.steps.tolist())
 
 
+def test_a_longer_time_step_takes_its_time():
+    pace = Pace.of(REAL, OWN.task)
+    assert pace.size == 4  # 40 ms
+    assert pace.due(1_000) == 10.0
+    whole = Pace.of(FAST, OWN.task)
+    assert whole.size == STRETCH // 2  # 2.25 s
+    assert pace.plan(STEPS).frames.time_step == 0.01
+
+
 def test_it_learns_in_real_time():
     spec, begun = make_spec(steps=200), time.monotonic()
-    watch(spec, Pace.of(REAL, 200), Live.remember)
+    watch(spec, Pace.of(REAL, spec.task), Live.remember)
     assert time.monotonic() - begun >= 0.96
     begun = time.monotonic()
-    assert watch(spec, Pace.of(REAL, 200, waits=False), Live.remember).measures.steps == 200
+    assert watch(spec, Pace.of(REAL, spec.task, waits=False), Live.remember).measures.steps == 200
 
 
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers")
@@ -152,7 +168,7 @@ def test_a_headless_viewer_follows_a_run_without_a_problem(
     with headless_viewer() as viewer:
         watch(
             spec,
-            Pace.of(speed, spec.task.steps),
+            Pace.of(speed, spec.task),
             lambda live: live.stream.connect_grpc(viewer.url),
         )
         wait_until_loaded(viewer)
@@ -181,7 +197,7 @@ def test_a_window_of_its_own_is_opened_and_closed(tmp_path, monkeypatch):
     monkeypatch.setattr(looking_module, "has_display", lambda: True)
     spec = make_spec(steps=500)
     with looking_module.window() as looking:
-        watch(spec, Pace.of(FAST, 500), lambda live: live.stream.connect_grpc(looking.url))
+        watch(spec, Pace.of(FAST, spec.task), lambda live: live.stream.connect_grpc(looking.url))
         client = ViewerClient.connect(looking.url)
         wait_until_loaded(client)
         (recording,) = client.get_state().recordings
@@ -242,7 +258,7 @@ def test_who_closes_the_viewer_ends_it(results, capsys):
     assert "closed before the run ended. Nothing is stored." in capsys.readouterr().out
     assert time.monotonic() - begun < 60
     with pytest.raises(Closed):
-        watch(make_spec(), Pace.of(REAL, 2_000), Live.remember, lambda: False)
+        watch(make_spec(), Pace.of(REAL, make_spec().task), Live.remember, lambda: False)
 
 
 def test_without_a_display_nothing_is_learned(results, monkeypatch, capsys):

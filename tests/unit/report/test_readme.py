@@ -16,7 +16,6 @@ from upswing.figures import draw
 from upswing.report.animation import (
     LEARNED,
     STEPS,
-    STEPS_A_FRAME,
     THESIS,
     drawn,
     stretches,
@@ -39,6 +38,7 @@ from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
 from upswing.study.paths import VERDICTS
+from upswing.study.physical import PendulumOptions
 
 TEMPLATES = ROOT / "report"
 LARGEST = 300_000
@@ -147,9 +147,9 @@ def test_the_animation_plays_what_is_stored(results_of_two):
         (1, f"{LEARNED}/seed-1", first),
     ):
         stored = results_of_two.trajectory(run).set_index("step")["angle"]
-        angle = stored.loc[range(begin, begin + STEPS, STEPS_A_FRAME)].to_numpy(float)
+        angle = stored.loc[range(begin, begin + STEPS, 8)].to_numpy(float)
         shown = np.radians(rotations(picture, number))
-        assert len(shown) == STEPS // STEPS_A_FRAME
+        assert len(shown) == STEPS // 8  # 40 ms a frame
         # A positive φ leans to the left, a positive rotation of SVG to the right.
         np.testing.assert_allclose(np.exp(-1j * shown), np.exp(1j * angle), atol=1e-3)
         assert np.abs(np.diff(shown)).max() < np.pi  # it never turns the long way round
@@ -159,6 +159,20 @@ def test_the_animation_is_the_same_again(results_of_two):
     again = Results(results_of_two.folder)
     again.runs["first_stable_step"] = results_of_two.runs["first_stable_step"]
     assert drawn(stretches(again)) == drawn(stretches(results_of_two))
+
+
+def test_the_animation_plays_in_the_time_of_its_task(results_of_two):
+    """With steps of 10 ms, twice as long a time, and 25 frames a second still."""
+    here = drawn(stretches(results_of_two))
+    task = results_of_two.task(THESIS)
+    slow = task.model_copy(update={"pendulum": PendulumOptions(time_step=0.01)})
+    for cell, spec in results_of_two.cells.items():
+        results_of_two.cells[cell] = spec.model_copy(update={"task": slow})
+    there = drawn(stretches(results_of_two))
+    assert ("10s linear" in here, "over 10 s" in here) == (True, True)
+    assert ("20s linear" in there, "over 20 s" in there) == (True, True)
+    assert len(rotations(here, 0)) == STEPS // 8
+    assert len(rotations(there, 0)) == STEPS // 4
 
 
 def test_the_animation_shows_the_end_where_nothing_has_learned(results_of_two):

@@ -18,6 +18,11 @@ STUDY = {
     "tasks": {
         "balancing": {"kind": "balancing", "steps": 3_000},
         "full-control": {"kind": "full-control", "steps": 3_000},
+        "five": {
+            "kind": "full-control", "steps": 3_000, "tiles": {"velocity_limit": 30},
+            "pendulum": {"length": 0.4, "accelerations": [-20, -10, 0, 10, 20], "time_step": 0.01},
+            "track": {"limit": 2.0}, "start": {"middle": 90, "within": 45},
+        },
     },
     "architectures": {
         "table": {"learner": "table"},
@@ -25,9 +30,9 @@ STUDY = {
     },
     "experiments": [
         {"tasks": ["balancing"], "architectures": ["table"], "alphas": [1]},
-        {"tasks": ["balancing", "full-control"], "architectures": ["push"]},
+        {"tasks": ["balancing", "full-control", "five"], "architectures": ["push"]},
     ],
-}
+}  # fmt: skip
 
 AGENTS = '''
 """Agents of several kinds."""
@@ -39,6 +44,16 @@ from pathlib import Path
 
 def push(observation):
     return 2
+
+
+def hard(observation):
+    return 4
+
+
+def grade(observation):
+    """The harder, the further it leans."""
+    cosine, sine, velocity = observation
+    return int(np.clip(round(2 - 2 * (sine + 0.1 * velocity)), 0, 4))
 
 
 def lean(observation):
@@ -90,6 +105,7 @@ def late(observation):
 late.asked = 0
 nothing = lambda observation: None
 four = lambda observation: 3
+sixth = lambda observation: 5
 half = lambda observation: 0.5
 truth = lambda observation: True
 several = lambda observation: np.array([1, 2])

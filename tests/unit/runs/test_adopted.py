@@ -16,13 +16,12 @@ from tests.unit.runs.adopting import (  # noqa: F401  two are fixtures
     copied_results,
     small_study,
 )
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.analysis.aggregate import write_tables
 from upswing.analysis.doctor import delete_orphans, examine
 from upswing.analysis.verdicts import write_verdicts
 from upswing.cli.commands.workflow import train as train_again
 from upswing.figures import draw
-from upswing.physics.tasks import ACCELERATIONS
+from upswing.physics.pendulum import Pendulum
 from upswing.recordings.catalog import catalog
 from upswing.recordings.ports import free_port
 from upswing.recordings.run_filter import select
@@ -42,7 +41,7 @@ from upswing.study.spec import parse
 
 @pytest.mark.parametrize("task", STUDY["tasks"])
 def test_its_runs_are_what_the_studys_loop_makes_of_the_same_behaviour(results, task):
-    adopted(results, "push", task, seeds=(3, 4))
+    adopted(results, "hard" if task == "five" else "push", task, seeds=(3, 4))
     runs = Results(results).runs.set_index("run")
     ours = runs.loc[[f"{task}/push/alpha-none/seed-{seed}" for seed in (3, 4)]]
     theirs = runs.loc[[f"{task}/mine/alpha-none/seed-{seed}" for seed in (3, 4)]]
@@ -112,11 +111,11 @@ def test_reading_a_run_back_runs_no_code_and_follows_the_map(results):
     spec = adopted(results, "lean")
     Path("was-run").unlink()
     learned = learned_by(results, spec.run(3))
-    states = np.random.default_rng(0).uniform(-1, 1, (200, 2)) * [np.pi / 2, VELOCITY_LIMIT]
+    states = np.random.default_rng(0).uniform(-1, 1, (200, 2)) * [np.pi / 2, 20.0]
     lean = np.sin(states[:, 0]) + 0.1 * states[:, 1]
     clear = np.abs(lean) > 0.1  # further from where it changes its mind than the parts are wide
     pushes = learned.policy(states[:, 0], states[:, 1])
-    assert (pushes[clear] == np.where(lean > 0, *ACCELERATIONS[::2])[clear]).all()
+    assert (pushes[clear] == np.where(lean > 0, *Pendulum().accelerations[::2])[clear]).all()
     trajectory = learned.simulate(0.1, steps=2_000)
     assert not trajectory.reset.any()
     with pytest.raises(BadInput, match="`upswing adopt` runs it"):
@@ -128,9 +127,26 @@ def test_the_map_has_the_agents_action_in_the_middle_of_each_part(results):
     spec = adopted(results, "lean", "full-control")
     actions = load_file(results / f"runs/{spec.run(3)}.weights.safetensors")["actions"]
     middles = (np.arange(120) + 0.5) / 60 - 1
-    angle, velocity = np.meshgrid(middles * np.pi, middles * VELOCITY_LIMIT, indexing="ij")
+    angle, velocity = np.meshgrid(middles * np.pi, middles * 20.0, indexing="ij")
     expected = np.where(np.sin(angle) + 0.1 * velocity > 0, 0, 2)
     assert (actions == expected).mean() > 0.999  # on the line itself it is a matter of rounding
+
+
+def test_it_has_the_actions_of_its_task(results):
+    spec = adopted(results, "grade", "five")
+    learned = learned_by(results, spec.run(3))
+    actions = load_file(results / f"runs/{spec.run(3)}.weights.safetensors")["actions"]
+    assert set(actions.ravel()) == set(range(5))
+    middles = (np.arange(120) + 0.5) / 60 - 1
+    angle, velocity = np.meshgrid(middles * np.pi, middles * 30.0, indexing="ij")  # its own tiles
+    expected = np.clip(np.round(2 - 2 * (np.sin(angle) + 0.1 * velocity)), 0, 4)
+    assert (actions == expected).mean() > 0.999
+    pushes = learned.policy(angle.ravel(), velocity.ravel())
+    assert (pushes == np.array([-20, -10, 0, 10, 20])[actions.ravel()]).all()
+    trajectory = Results(results).trajectory(spec.run(3))
+    assert trajectory["action"].max() == 4
+    assert trajectory["cart_position"].abs().max() <= 2.0
+    assert np.radians(45) <= trajectory["angle"].iloc[0] <= np.radians(135)
 
 
 def test_more_seeds_join_and_another_agent_is_refused(results):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.helpers import make_spec
+from tests.helpers import beyond_spec, make_spec
 from upswing.physics.environment import empty_trajectory
 from upswing.runs.evaluation import evaluate
 from upswing.runs.simulation import prepare
@@ -46,3 +46,14 @@ def test_a_fresh_table_swings_nothing_up():
     spec = make_spec("full-control", "table")
     found = evaluate(prepare(spec, 0), spec, 0)
     assert found.greedy_success_share == 0
+
+
+@pytest.mark.parametrize("name", ["gated", "decaying"])
+def test_so_does_what_learners_count_whatever_the_step_size(name):
+    options = {"halved_after": 5.0} if name == "decaying" else {}
+    spec = beyond_spec(learner=name, **options)
+    setting = learned(spec)
+    before = {name: values.copy() for name, values in setting.learner.learned.items()}
+    evaluate(setting, spec, 0)
+    for name, values in setting.learner.learned.items():
+        np.testing.assert_array_equal(values, before[name])

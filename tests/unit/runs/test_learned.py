@@ -11,7 +11,6 @@ from safetensors.numpy import save_file
 from tests.helpers import assert_same, beyond_spec, make_spec
 from upswing.agents.features import locate
 from upswing.physics.environment import State, empty_trajectory
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.evaluation import evaluate
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.learned import Learned, learned_by, load_learned
@@ -19,6 +18,8 @@ from upswing.runs.simulation import new_algorithm, prepare, streams
 from upswing.runs.train import train
 from upswing.study.errors import BadInput
 from upswing.study.ids import file_of
+
+OWN = {"length": 0.4, "time_step": 0.01, "accelerations": (-20, -10, 0, 10, 20)}
 
 SPECS = {
     "table": make_spec("balancing", "table", 0.5, 6_000),
@@ -37,6 +38,8 @@ SPECS = {
     "decaying": beyond_spec(learner="decaying", halved_after=100.0, method="sarsa"),
     "networks of the state": beyond_spec(learner="networks", coding="continuous", hidden=(8,)),
     "action among the inputs": beyond_spec(learner="action-input", hidden=(8,)),
+    "another pendulum": beyond_spec(task={"pendulum": OWN, "track": {"limit": 0.5}}),
+    "five networks": beyond_spec(task={"pendulum": OWN}, learner="networks", hidden=(8,)),
     "dqn": beyond_spec(learner="dqn", coding="continuous", hidden=(16,), alpha=0.001),
 }
 
@@ -65,7 +68,12 @@ def test_the_frozen_evaluation_comes_out_as_it_is_stored(stored, name):
     assert found._asdict() == {key: outcome[key] for key in found._fields}
 
 
-@pytest.mark.parametrize("name", ["table", "modular table", "networks", "tilings", "dqn", "random"])
+FOLLOWED = (
+    "table", "modular table", "networks", "tilings", "dqn", "random", "another pendulum",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FOLLOWED)
 def test_following_is_what_the_evaluation_does(stored, name):
     """The oracle is the evaluation's own way to freeze a run that has learned."""
     spec, steps = SPECS[name], 1_500
@@ -86,24 +94,35 @@ def test_following_is_what_the_evaluation_does(stored, name):
     assert_same(loaded(stored, name).simulate(0.3, 0.0, steps), expected)
 
 
-@pytest.mark.parametrize("name", ["table, first of equals", "networks", "tilings", "dqn"])
+@pytest.mark.parametrize(
+    "name", ["table, first of equals", "networks", "tilings", "dqn", "five networks"]
+)
 def test_the_policy_is_the_action_of_the_largest_value(stored, name):
     learned, draws = loaded(stored, name), np.random.default_rng(1)
     angle, velocity = draws.uniform(-1.5, 1.5, (3, 40)), draws.uniform(-10, 10, (3, 40))
     q = learned.values(angle, velocity)
-    assert q.shape == (3, 40, 3)
+    actions = len(SPECS[name].task.pendulum.accelerations)
+    assert q.shape == (3, 40, actions)
     np.testing.assert_array_equal(
-        learned.policy(angle, velocity), np.array(ACCELERATIONS)[q.argmax(axis=-1)]
+        learned.policy(angle, velocity), np.array(learned.accelerations)[q.argmax(axis=-1)]
     )
     places = [
         locate(learned.setting.encoder, *state)
         for state in zip(angle.ravel().tolist(), velocity.ravel().tolist(), strict=True)
     ]
     np.testing.assert_allclose(
-        q.reshape(-1, 3), learned.setting.learner.action_values(places), rtol=1e-12, atol=1e-14
+        q.reshape(-1, actions),
+        learned.setting.learner.action_values(places),
+        rtol=1e-12,
+        atol=1e-14,
     )
     assert learned.policy(0.1, 0.2).shape == ()
     assert learned.policy(0.1, velocity).shape == (3, 40)
+
+
+def test_without_a_length_it_is_followed_for_20_s(stored):
+    assert len(loaded(stored, "table").simulate(0.2).angle) == 4_000
+    assert len(loaded(stored, "another pendulum").simulate(0.2).angle) == 2_000
 
 
 def test_the_policy_answers_as_the_run_acts(stored):
@@ -111,7 +130,7 @@ def test_the_policy_answers_as_the_run_acts(stored):
     learned = loaded(stored, "networks")
     path = learned.simulate(0.2, 0.0, 400)
     asked = learned.policy(path.angle.astype(float), path.angular_velocity.astype(float))
-    np.testing.assert_array_equal(asked, np.array(ACCELERATIONS)[path.action])
+    np.testing.assert_array_equal(asked, np.array(learned.accelerations)[path.action])
 
 
 def test_among_equals_the_reading_decides():

@@ -26,7 +26,7 @@ from upswing.runs.train import train
 def test_stretches_are_whole_and_end_in_a_gap(kind):
     trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
     stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
-    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable)
+    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable, 0.005)
     assert (np.diff(frames.steps) > 0).all()
     whole = frames.steps[~frames.gap]
     assert set(range(STRETCH)) | set(range(30_000 - STRETCH, 30_000)) <= set(whole.tolist())
@@ -40,7 +40,7 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
 def test_stretches_are_named_and_none_overlaps_another(kind):
     trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
     stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
-    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable)
+    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable, 0.005)
     covered = [step for one in frames.named for step in range(one.first, one.after)]
     assert covered == frames.steps[~frames.gap].tolist()
     names = " and ".join(one.name for one in frames.named)
@@ -48,7 +48,7 @@ def test_stretches_are_named_and_none_overlaps_another(kind):
     assert set(names.split(" and ")) == expected
     if stable is not None:
         (one,) = (one for one in frames.named if "first stable" in one.name)
-        assert one.first == max(0, stable - BEFORE_SUCCESS)
+        assert one.first == max(0, stable - STRETCH // BEFORE_SUCCESS)
 
 
 def test_snapshots_are_what_was_known_then():

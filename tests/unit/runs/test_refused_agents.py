@@ -39,6 +39,13 @@ def test_an_agent_that_is_none_is_refused_before_anything_is_written(results, fu
     assert files(results) == before
 
 
+def test_what_an_action_is_depends_on_the_task(results):
+    with pytest.raises(BadInput, match="5: must be 0, 1, 2, 3 or 4, an index into −20, −10, 0, "):
+        adopt(results, asked("sixth", "five"))
+    with pytest.raises(BadInput, match="4: must be 0, 1 or 2, an index into −10, 0 and \\+10 m/s²"):
+        adopt(results, asked("hard", "balancing"))
+
+
 @pytest.mark.parametrize(
     ("changed", "said"),
     [

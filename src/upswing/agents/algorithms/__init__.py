@@ -18,6 +18,7 @@ import numpy as np
 from upswing.agents.features import Encoder
 from upswing.agents.policy import Q, Rule
 from upswing.physics.jit import ByType
+from upswing.physics.pendulum import Pendulum
 from upswing.study.loading import load
 from upswing.study.readings import Readings
 
@@ -82,6 +83,7 @@ class Design(NamedTuple):
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
     draws: np.random.Generator  # the algorithm's own stream of random numbers
+    actions: int = len(Pendulum().accelerations)
 
 
 def create(name: str, design: Design) -> NamedTuple:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, Protocol
 from upswing.physics.jit import ByType
 from upswing.physics.tasks import Task
 from upswing.study.loading import load
+from upswing.study.physical import TileOptions
 from upswing.study.readings import Readings
 
 
@@ -30,6 +31,15 @@ class Point(NamedTuple):
     angular_velocity: float  # φ̇ [rad/s]
 
 
+class Picture(NamedTuple):
+    """A grid of equal parts, at whose middles a picture of what was learned asks ``locate``."""
+
+    angle_parts: int
+    velocity_parts: int
+    angle_limit: float  # the parts of φ cover ± this [rad]
+    velocity_limit: float = 20.0  # the parts of φ̇ cover ± this [rad/s]
+
+
 class Encoder(Protocol):
     """An encoder outside the loop."""
 
@@ -44,11 +54,8 @@ class Encoder(Protocol):
         """How many tiles a module has in all; 0 where states are told as they are."""
 
     @property
-    def picture(self) -> tuple[int, int, float]:
-        """Parts of φ, parts of φ̇, and the limit of φ [rad] of a picture of what was learned.
-
-        The picture asks ``locate`` at the middle of equal parts, whatever shape the tiles have.
-        """
+    def picture(self) -> Picture:
+        """The parts of a picture of what was learned, whatever shape the tiles have."""
 
 
 def _locate(encoder: Any, angle: float, angular_velocity: float) -> Any:
@@ -67,6 +74,7 @@ class Plan(NamedTuple):
     task: Task
     options: Mapping[str, Any]  # of the architecture
     readings: Readings
+    tiles: TileOptions = TileOptions()  # of the task, as in the configuration
 
 
 def create(name: str, plan: Plan) -> Encoder:

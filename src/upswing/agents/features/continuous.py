@@ -2,8 +2,8 @@
 
 from typing import ClassVar, NamedTuple
 
-from upswing.agents.features import Plan, Point, locate_in
-from upswing.agents.features.grid import tiles_for
+from upswing.agents.features import Picture, Plan, Point, locate_in
+from upswing.agents.features.grid import tiles_of
 from upswing.study import architecture
 
 PICTURE = (40, 40)
@@ -20,6 +20,7 @@ class Continuous(NamedTuple):
     """States as they are."""
 
     angle_limit: float  # of pictures [rad]
+    velocity_limit: float  # … [rad/s]
 
     @property
     def modules(self) -> int:
@@ -32,9 +33,9 @@ class Continuous(NamedTuple):
         return 0
 
     @property
-    def picture(self) -> tuple[int, int, float]:
+    def picture(self) -> Picture:
         """A grid fine enough to show what a network draws."""
-        return *PICTURE, self.angle_limit
+        return Picture(*PICTURE, self.angle_limit, self.velocity_limit)
 
 
 @locate_in(Continuous)
@@ -44,4 +45,5 @@ def _locate(continuous: Continuous, angle: float, angular_velocity: float) -> Po
 
 def create(plan: Plan) -> Continuous:
     """States of the task."""
-    return Continuous(tiles_for(plan.task, False, plan.readings).angle_limit)
+    grid = tiles_of(plan)
+    return Continuous(grid.angle_limit, grid.velocity_limit)

@@ -4,8 +4,8 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from upswing.agents.features import Place, Plan, locate_in
-from upswing.agents.features.grid import VELOCITY_LIMIT, VELOCITY_PARTS, part, tiles_for
+from upswing.agents.features import Picture, Place, Plan, locate_in
+from upswing.agents.features.grid import part, tiles_of
 from upswing.study import architecture
 
 
@@ -22,7 +22,8 @@ class Fine(NamedTuple):
 
     angle_parts: int  # parts of φ over ± angle_limit
     angle_limit: float  # [rad]
-    velocity_parts: int  # parts of φ̇ over ± VELOCITY_LIMIT
+    velocity_parts: int  # parts of φ̇ over ± velocity_limit
+    velocity_limit: float  # [rad/s]
 
     @property
     def modules(self) -> int:
@@ -35,19 +36,22 @@ class Fine(NamedTuple):
         return self.angle_parts * self.velocity_parts
 
     @property
-    def picture(self) -> tuple[int, int, float]:
+    def picture(self) -> Picture:
         """One pixel for each tile."""
-        return self.angle_parts, self.velocity_parts, self.angle_limit
+        return Picture(self.angle_parts, self.velocity_parts, self.angle_limit, self.velocity_limit)
 
 
 @locate_in(Fine)
 def _locate(fine: Fine, angle: float, angular_velocity: float) -> Place:
     row = part(angle, fine.angle_limit, fine.angle_parts)
-    column = part(angular_velocity, VELOCITY_LIMIT, fine.velocity_parts)
+    column = part(angular_velocity, fine.velocity_limit, fine.velocity_parts)
     return Place(0, (row * fine.velocity_parts + column,))
 
 
 def create(plan: Plan) -> Fine:
     """The thesis's grid for the kind of task, each tile cut into ``cuts`` × ``cuts``."""
-    coarse, cuts = tiles_for(plan.task, False, plan.readings), plan.options["cuts"]
-    return Fine(coarse.angle_parts * cuts, coarse.angle_limit, VELOCITY_PARTS * cuts)
+    coarse, cuts = tiles_of(plan), plan.options["cuts"]
+    return Fine(
+        coarse.angle_parts * cuts, coarse.angle_limit, coarse.velocity_parts * cuts,
+        coarse.velocity_limit,
+    )  # fmt: skip

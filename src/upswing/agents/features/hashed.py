@@ -4,9 +4,9 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from upswing.agents.features import Place, Plan, fine, locate_in
+from upswing.agents.features import Picture, Place, Plan, fine, locate_in
 from upswing.agents.features.fine import Fine
-from upswing.agents.features.grid import VELOCITY_LIMIT, part
+from upswing.agents.features.grid import part
 from upswing.study import architecture
 
 
@@ -38,16 +38,16 @@ class Hashed(NamedTuple):
         return self.entries
 
     @property
-    def picture(self) -> tuple[int, int, float]:
+    def picture(self) -> Picture:
         """One pixel for each tile of the fine grid."""
-        return self.grid.angle_parts, self.grid.velocity_parts, self.grid.angle_limit
+        return self.grid.picture
 
 
 @locate_in(Hashed)
 def _locate(hashed: Hashed, angle: float, angular_velocity: float) -> Place:
     grid = hashed.grid
     row = part(angle, grid.angle_limit, grid.angle_parts)
-    column = part(angular_velocity, VELOCITY_LIMIT, grid.velocity_parts)
+    column = part(angular_velocity, grid.velocity_limit, grid.velocity_parts)
     # Multiplication by an odd number near 2³²/φ scatters neighbours (Knuth, TAOCP 3, §6.4).
     scattered = ((row * grid.velocity_parts + column) * 2654435761) & 0xFFFFFFFF
     return Place(0, (((scattered >> 8) % hashed.entries),))

@@ -4,13 +4,13 @@ A state lies in one tile of each, so what is learned about it spreads to its nei
 states that share all tiles of the thesis are told apart.
 """
 
-from math import floor
+from math import floor, pi
 from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from upswing.agents.features import Place, Plan, locate_in
-from upswing.agents.features.grid import VELOCITY_LIMIT, VELOCITY_PARTS, tiles_for
+from upswing.agents.features import Picture, Place, Plan, locate_in
+from upswing.agents.features.grid import tiles_of
 from upswing.physics.jit import compiled
 from upswing.study import architecture
 
@@ -30,6 +30,8 @@ class Tilings(NamedTuple):
 
     angle_parts: int  # parts of φ over ± angle_limit, before the shift
     angle_limit: float  # [rad]
+    velocity_parts: int  # parts of φ̇ over ± velocity_limit, before the shift
+    velocity_limit: float  # [rad/s]
     round: bool  # whether φ comes round after ± angle_limit
 
     @property
@@ -40,12 +42,14 @@ class Tilings(NamedTuple):
     @property
     def tiles(self) -> int:
         """Those of all tilings."""
-        return TILINGS * (self.angle_parts + 1) * (VELOCITY_PARTS + 1)
+        return TILINGS * (self.angle_parts + 1) * (self.velocity_parts + 1)
 
     @property
-    def picture(self) -> tuple[int, int, float]:
+    def picture(self) -> Picture:
         """Fine enough to show where the tilings' borders are."""
-        return 8 * self.angle_parts, 4 * VELOCITY_PARTS, self.angle_limit
+        return Picture(
+            8 * self.angle_parts, 4 * self.velocity_parts, self.angle_limit, self.velocity_limit
+        )
 
 
 @compiled
@@ -56,14 +60,15 @@ def tile_in(tilings: Tilings, tiling: int, angle: float, angular_velocity: float
     if angle < tilings.angle_limit:
         # Just below the limit the quotient may round up to the limit itself.
         across = min(across, np.nextafter(float(parts), 0.0))
-    up = (angular_velocity + VELOCITY_LIMIT) / (2 * VELOCITY_LIMIT) * VELOCITY_PARTS
+    limit, velocity_parts = tilings.velocity_limit, tilings.velocity_parts
+    up = (angular_velocity + limit) / (2 * limit) * velocity_parts
     shift_across = (SHIFTS[0] * tiling) % TILINGS / TILINGS
     shift_up = (SHIFTS[1] * tiling) % TILINGS / TILINGS
     row = floor(across + shift_across)
     # On a whole circle the last part continues in the first.
     row = row % parts if tilings.round else min(max(row, 0), parts)
-    column = min(max(floor(up + shift_up), 0), VELOCITY_PARTS)
-    return int((tiling * (parts + 1) + row) * (VELOCITY_PARTS + 1) + column)
+    column = min(max(floor(up + shift_up), 0), velocity_parts)
+    return int((tiling * (parts + 1) + row) * (velocity_parts + 1) + column)
 
 
 @locate_in(Tilings)
@@ -85,6 +90,8 @@ def _locate(tilings: Tilings, angle: float, angular_velocity: float) -> Place:
 
 def create(plan: Plan) -> Tilings:
     """Tilings of the task's own grid."""
-    grid = tiles_for(plan.task, False, plan.readings)
-    comes_round = plan.task.wraps and plan.readings.angle_unit == "half_turn"
-    return Tilings(grid.angle_parts, grid.angle_limit, comes_round)
+    grid = tiles_of(plan)
+    comes_round = plan.task.wraps and grid.angle_limit == pi
+    return Tilings(
+        grid.angle_parts, grid.angle_limit, grid.velocity_parts, grid.velocity_limit, comes_round
+    )

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from upswing.agents.features import Encoder
 from upswing.agents.policy import Q
 from upswing.physics.jit import ByType
+from upswing.physics.pendulum import Pendulum
 from upswing.study.loading import load
 from upswing.study.readings import Readings
 
@@ -23,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 def _values(learner: Any, place: Any) -> Q:
-    """Q(s, a) of the three actions, of a state in the encoder that the learner was made for."""
+    """Q(s, a) of all actions, of a state in the encoder that the learner was made for."""
     raise TypeError(f"{type(learner)} is no learner")
 
 
@@ -48,6 +49,12 @@ class Beginning(NamedTuple):
     readings: Readings
     lowest_q: float  # the smallest discounted return there can be, for a pessimistic first Q
     weights: np.random.Generator  # the stream of the first values or weights
+    accelerations: tuple[float, ...] = Pendulum().accelerations  # of the actions [m/s²]
+
+    @property
+    def actions(self) -> int:
+        """How many there are."""
+        return len(self.accelerations)
 
 
 class Learner(Protocol):

@@ -13,8 +13,7 @@ from upswing.agents.features import Place
 from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.policy import Q
-from upswing.physics.jit import inlined
-from upswing.physics.tasks import ACTIONS
+from upswing.physics.jit import inlined, with_item
 from upswing.study import architecture
 from upswing.study.values import LayerSizes
 
@@ -31,11 +30,11 @@ class Options(architecture.Architecture):
 class QNetwork(nn.Module):
     """One-hot tile and one-hot action, a logistic hidden layer, a linear output; one for each module."""
 
-    def __init__(self, modules: int, tiles: int, hidden: int, biases: str) -> None:
+    def __init__(self, modules: int, tiles: int, actions: int, hidden: int, biases: str) -> None:
         super().__init__()
         sizes = {
             "tile_weights": (modules, tiles, hidden),
-            "action_weights": (modules, ACTIONS, hidden),
+            "action_weights": (modules, actions, hidden),
             "output_weights": (modules, hidden),
             **({"hidden_bias": (modules, hidden)} if biases != "none" else {}),
             **({"output_bias": (modules,)} if biases == "both" else {}),
@@ -67,6 +66,7 @@ class ActionInput(NamedTuple):
     learns_hidden_bias: bool
     learns_output_bias: bool
     learning_rate: float  # η
+    zeros: Q  # as many as there are actions
 
 
 @inlined
@@ -91,11 +91,10 @@ def value(net: ActionInput, module: int, tile: int, action: int) -> float:
 @values_of(ActionInput)
 def _values(net: ActionInput, place: Place) -> Q:
     module, tile = place.module, place.tiles[0]
-    return (
-        value(net, module, tile, 0),
-        value(net, module, tile, 1),
-        value(net, module, tile, 2),
-    )
+    q = net.zeros
+    for action in range(len(q)):
+        q = with_item(q, action, value(net, module, tile, action))
+    return q
 
 
 @update_of(ActionInput)
@@ -133,6 +132,7 @@ class ActionInputLearner:
             "hidden_bias" in given,
             "output_bias" in given,
             learning_rate,
+            (0.0,) * given["action_weights"].shape[1],
         )
 
     @property
@@ -154,7 +154,7 @@ def create(beginning: Beginning) -> ActionInputLearner:
     """A network with weights and biases uniform in ± R11, drawn in the order of ``QNetwork``."""
     encoder, readings = beginning.encoder, beginning.readings
     (hidden,) = beginning.options["hidden"]
-    network = QNetwork(encoder.modules, encoder.tiles, hidden, readings.biases)
+    network = QNetwork(encoder.modules, encoder.tiles, beginning.actions, hidden, readings.biases)
     scale = float(readings.initial_weights)
     with torch.no_grad():
         for parameter in network.parameters():

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from upswing.agents.elsewhere import Acting, Agent
-from upswing.agents.features import Point
-from upswing.agents.features.grid import VELOCITY_LIMIT
+from upswing.agents.features import Picture, Point
 from upswing.agents.learners import Array, Beginning, update_of, values, values_of
 from upswing.agents.policy import Q
 from upswing.physics.environment import NEVER, State, record, transition
+from upswing.physics.jit import with_item
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACTIONS, Task
+from upswing.physics.tasks import Task
 from upswing.study import architecture
 from upswing.study.names import Text
 
@@ -64,23 +64,23 @@ class Mapped(NamedTuple):
     """The map of an agent."""
 
     actions: NDArray[np.int8]  # its action in each part: (parts of φ, parts of φ̇)
-    angle_limit: float  # it covers ± this [rad], and ± VELOCITY_LIMIT
+    angle_limit: float  # it covers ± this [rad] …
+    velocity_limit: float  # … and ± this [rad/s]
+    zeros: Q  # as many as there are actions
 
 
 @values_of(Mapped)
 def _values(mapped: Mapped, point: Point) -> Q:
     parts = mapped.actions.shape[0]
-    limit = mapped.angle_limit
+    limit, fastest = mapped.angle_limit, mapped.velocity_limit
     row = int((point.angle + limit) / (2 * limit) * parts)
-    column = int((point.angular_velocity + VELOCITY_LIMIT) / (2 * VELOCITY_LIMIT) * parts)
-    action = mapped.actions[max(0, min(row, parts - 1)), max(0, min(column, parts - 1))]
-    if action < 0:
-        return nan, nan, nan
-    return (
-        0.0 if action == 0 else -1.0,
-        0.0 if action == 1 else -1.0,
-        0.0 if action == 2 else -1.0,
-    )
+    column = int((point.angular_velocity + fastest) / (2 * fastest) * parts)
+    chosen = mapped.actions[max(0, min(row, parts - 1)), max(0, min(column, parts - 1))]
+    q = mapped.zeros
+    for action in range(len(q)):
+        if action != chosen:
+            q = with_item(q, action, nan if chosen < 0 else -1.0)
+    return q
 
 
 @update_of(Mapped)
@@ -93,8 +93,10 @@ class MappedLearner:
 
     epsilon = 0.0
 
-    def __init__(self, angle_limit: float) -> None:
-        self.stepped = Mapped(np.full((PARTS, PARTS), UNKNOWN, dtype=np.int8), angle_limit)
+    def __init__(self, picture: Picture, actions: int) -> None:
+        unknown = np.full((PARTS, PARTS), UNKNOWN, dtype=np.int8)
+        limits = picture.angle_limit, picture.velocity_limit
+        self.stepped = Mapped(unknown, *limits, zeros=(0.0,) * actions)
 
     @property
     def learned(self) -> Mapping[str, NDArray[Any]]:
@@ -104,18 +106,18 @@ class MappedLearner:
     def action_values(self, places: Sequence[Point]) -> Array:
         """0 for the action of the map at ``places``, −1 for the others."""
         found = [values(self.stepped, place) for place in places]
-        return np.array(found, dtype=np.float64).reshape(len(places), ACTIONS)
+        return np.array(found, dtype=np.float64).reshape(len(places), len(self.stepped.zeros))
 
 
 class ActingLearner(MappedLearner):
     """The agent itself, asked at every step."""
 
-    def __init__(self, angle_limit: float, acting: Acting) -> None:
-        super().__init__(angle_limit)
+    def __init__(self, picture: Picture, acting: Acting) -> None:
+        super().__init__(picture, len(acting.accelerations))
         self.acting = acting
         middles = (np.arange(PARTS) + 0.5) * 2 / PARTS - 1
-        for row, angle in enumerate((middles * angle_limit).tolist()):
-            for column, velocity in enumerate((middles * VELOCITY_LIMIT).tolist()):
+        for row, angle in enumerate((middles * picture.angle_limit).tolist()):
+            for column, velocity in enumerate((middles * picture.velocity_limit).tolist()):
                 acting.begin()  # each is a beginning to an agent that remembers
                 self.stepped.actions[row, column] = acting.action(angle, velocity)
 
@@ -155,10 +157,10 @@ def acting(agent: Agent) -> Iterator[None]:
 
 def create(beginning: Beginning) -> MappedLearner:
     """The agent that is being adopted; where none is, an empty map for what is read back."""
-    *_, limit = beginning.encoder.picture
+    picture = beginning.encoder.picture
     agent = _acting.get()
     if agent is None:
-        return MappedLearner(limit)
+        return MappedLearner(picture, beginning.actions)
     # Each stream of a run is made from a child of the sequence that the run's seed begins.
     seed: Any = beginning.weights.bit_generator.seed_seq
-    return ActingLearner(limit, Acting(agent, int(seed.entropy)))
+    return ActingLearner(picture, Acting(agent, int(seed.entropy), beginning.accelerations))

@@ -9,8 +9,9 @@ from pydantic import Field
 
 from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.policy import Q
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
+from upswing.physics.jit import with_item
 from upswing.study import architecture
+from upswing.study.task import Task
 
 
 class Options(architecture.Architecture):
@@ -34,16 +35,25 @@ class Options(architecture.Architecture):
         if self.is_modular:
             raise ValueError("a control has nothing to divide into modules")
 
+    def check_with(self, task: Task) -> None:
+        """No control is an action of its own."""
+        if self.behaviour == "idle" and 0 not in task.pendulum.accelerations:
+            raise ValueError("`behaviour: idle` needs an action of 0 m/s² in `accelerations`")
+
 
 class Control(NamedTuple):
     """Fixed values, the same in every state."""
 
     preference: Array  # (actions,)
+    zeros: Q  # as many as there are actions
 
 
 @values_of(Control)
 def _values(control: Control, place: Any) -> Q:
-    return control.preference[0], control.preference[1], control.preference[2]
+    q = control.zeros
+    for action in range(len(q)):
+        q = with_item(q, action, control.preference[action])
+    return q
 
 
 @update_of(Control)
@@ -54,10 +64,11 @@ def _update(control: Control, place: Any, action: int, error: float) -> None:
 class ControlLearner:
     """`idle` never accelerates the cart; `random` takes every action equally often; `push` the last."""
 
-    def __init__(self, behaviour: str) -> None:
+    def __init__(self, behaviour: str, accelerations: tuple[float, ...]) -> None:
         self.epsilon = 1.0 if behaviour == "random" else 0.0
-        accelerations = np.array(ACCELERATIONS)
-        self.stepped = Control(accelerations if behaviour == "push" else -np.abs(accelerations))
+        pushes = np.array(accelerations)
+        preference = pushes if behaviour == "push" else -np.abs(pushes)
+        self.stepped = Control(preference, (0.0,) * len(pushes))
 
     @property
     def learned(self) -> Mapping[str, NDArray[Any]]:
@@ -66,9 +77,10 @@ class ControlLearner:
 
     def action_values(self, places: Sequence[Any]) -> Array:
         """The preference, the same in every state."""
-        return np.broadcast_to(self.stepped.preference, (len(places), ACTIONS))
+        preference = self.stepped.preference
+        return np.broadcast_to(preference, (len(places), len(preference)))
 
 
 def create(beginning: Beginning) -> ControlLearner:
     """The control that the option ``behaviour`` names."""
-    return ControlLearner(beginning.options["behaviour"])
+    return ControlLearner(beginning.options["behaviour"], beginning.accelerations)

@@ -30,9 +30,9 @@ from upswing.agents.learners.backpropagation.dense import INPUTS, inputs
 from upswing.agents.policy import Q, Rule, epsilon_greedy
 from upswing.agents.replay import Replay, begin, collect, empty_replay, end, sample
 from upswing.physics.environment import NEVER, State, record, transition
-from upswing.physics.jit import compiled
+from upswing.physics.jit import compiled, with_item
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACTIONS, Task
+from upswing.physics.tasks import Task
 from upswing.study import architecture
 from upswing.study.values import Count, LayerSizes, Positive, Steps
 
@@ -107,6 +107,7 @@ class DeepQ(NamedTuple):
     unit: float
     action_repeat: int  # number of steps that a decision is held
     signals: Array  # (layers + 1, widest)
+    zeros: Q  # as many as there are actions
 
 
 @values_of(DeepQ)
@@ -123,8 +124,10 @@ def _values(net: DeepQ, point: Point) -> Q:
             if layer == 0 or signal > 0.0:  # a rectified unit that is silent tells nothing
                 for j in range(bias.shape[0]):
                     answer[j] += signal * weights[i, j]
-    q = signals[layers]
-    return net.unit * q[0], net.unit * q[1], net.unit * q[2]
+    q = net.zeros
+    for action in range(len(q)):
+        q = with_item(q, action, net.unit * signals[layers, action])
+    return q
 
 
 @compiled
@@ -182,6 +185,7 @@ class DqnLearner:
             float(network.unit),
             int(options["action_repeat"]),
             np.zeros((len(network.weights) + 1, max(max(w.shape) for w in network.weights))),
+            (0.0,) * network.weights[-1].shape[1],
         )
 
     @property
@@ -249,7 +253,7 @@ class DqnLearner:
 
 def create(beginning: Beginning) -> DqnLearner:
     """A network with weights and biases uniform in ± 1/√inputs, as is usual for these units."""
-    sizes = (INPUTS, *beginning.options["hidden"], ACTIONS)
+    sizes = (INPUTS, *beginning.options["hidden"], beginning.actions)
     network = QNetwork(sizes, -beginning.options["q_unit"] * beginning.lowest_q)
     with torch.no_grad():
         for weights, bias in zip(network.weights, network.biases, strict=True):

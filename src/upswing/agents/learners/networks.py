@@ -18,7 +18,6 @@ from upswing.agents.learners import Array, Beginning
 from upswing.agents.learners.backpropagation.dense import INPUTS, dense, inputs
 from upswing.agents.learners.backpropagation.one_hidden import one_hidden
 from upswing.agents.learners.backpropagation.two_hidden import two_hidden
-from upswing.physics.tasks import ACTIONS
 from upswing.study import architecture
 from upswing.study.values import LayerSizes
 
@@ -37,7 +36,7 @@ class Options(architecture.Architecture):
         units = " and ".join(map(str, self.hidden))
         told = "a one-hot input for the tile" if self.gives == "tile" else "the state as input"
         return (
-            f"three networks, one for each action: {told}, {units} logistic hidden units, one linear "
+            f"a network for each action: {told}, {units} logistic hidden units, one linear "
             "output; an update moves the weights by η α δ times the gradient, where δ is the TD error "
             "and η backpropagation’s own rate (R12)"
         )
@@ -56,18 +55,19 @@ class QNetworks(nn.Module):
     R10 gives it one, ``biases[k]``, shape (modules, actions, outputs).
     """
 
-    def __init__(self, modules: int, sizes: tuple[int, ...], biases: str) -> None:
+    def __init__(self, modules: int, actions: int, sizes: tuple[int, ...], biases: str) -> None:
         super().__init__()
+        self.actions = actions
         shapes = list(pairwise((*sizes, 1)))
         last = len(shapes) - 1
         self.weights = nn.ParameterList(
-            torch.zeros(modules, ACTIONS, *shape, dtype=torch.float64)
+            torch.zeros(modules, actions, *shape, dtype=torch.float64)
             for shape in (shapes[0], *(reversed(shape) for shape in shapes[1:]))
         )
         self.biases = nn.ParameterDict(
             {
                 str(layer): nn.Parameter(
-                    torch.zeros(modules, ACTIONS, outputs, dtype=torch.float64)
+                    torch.zeros(modules, actions, outputs, dtype=torch.float64)
                 )
                 for layer, (_, outputs) in enumerate(shapes)
                 if biases == "both" or (biases == "hidden" and layer != last)
@@ -77,7 +77,7 @@ class QNetworks(nn.Module):
     def forward(self, module: int, tiles: Tensor) -> Tensor:
         """Q(s, a) of inputs (states, inputs), one-hot tiles for example, as (states, actions)."""
         # (states, tiles) → (actions, states, outputs), layer by layer
-        signal = tiles.expand(ACTIONS, *tiles.shape)
+        signal = tiles.expand(self.actions, *tiles.shape)
         for layer, weights in enumerate(self.weights):
             into = weights[module] if layer == 0 else weights[module].mT
             signal = signal @ into
@@ -132,7 +132,7 @@ def create(beginning: Beginning) -> NetworksLearner:
     encoder, readings = beginning.encoder, beginning.readings
     tiled = encoder.tiles > 0
     sizes = (encoder.tiles if tiled else INPUTS, *beginning.options["hidden"])
-    networks = QNetworks(encoder.modules, sizes, readings.biases)
+    networks = QNetworks(encoder.modules, beginning.actions, sizes, readings.biases)
     scale = float(readings.initial_weights)
     with torch.no_grad():
         for parameter in networks.parameters():

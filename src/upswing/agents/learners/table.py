@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from upswing.agents.features import Place
 from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.policy import Q
-from upswing.physics.tasks import ACTIONS
+from upswing.physics.jit import with_item
 from upswing.study import architecture
 
 
@@ -27,18 +27,18 @@ class Table(NamedTuple):
     """The table that the loop steps."""
 
     q: Array  # (modules, tiles, actions)
+    zeros: Q  # as many as there are actions
 
 
 @values_of(Table)
 def _values(table: Table, place: Place) -> Q:
-    q, module, first = table.q, place.module, place.tiles[0]
-    left, none, right = q[module, first, 0], q[module, first, 1], q[module, first, 2]
-    for other in range(1, len(place.tiles)):  # tilings overlap: Q is the sum of a state's tiles
-        tile = place.tiles[other]
-        left += q[module, tile, 0]
-        none += q[module, tile, 1]
-        right += q[module, tile, 2]
-    return left, none, right
+    q, module, first = table.zeros, place.module, place.tiles[0]
+    for action in range(len(q)):
+        value = table.q[module, first, action]
+        for other in range(1, len(place.tiles)):  # tilings overlap: Q is the sum of a state's tiles
+            value += table.q[module, place.tiles[other], action]
+        q = with_item(q, action, value)
+    return q
 
 
 @update_of(Table)
@@ -54,7 +54,7 @@ class TableLearner:
     epsilon = None
 
     def __init__(self, q: Array) -> None:
-        self.stepped = Table(q)
+        self.stepped = Table(q, (0.0,) * q.shape[-1])
 
     @property
     def learned(self) -> Mapping[str, NDArray[Any]]:
@@ -77,7 +77,7 @@ def create(beginning: Beginning) -> TableLearner:
 def first_table(beginning: Beginning) -> Array:
     """The first Q of R5, (modules, tiles, actions): zero, the lowest return, or uniform between."""
     encoder, lowest = beginning.encoder, beginning.lowest_q
-    shape = (encoder.modules, encoder.tiles, ACTIONS)
+    shape = (encoder.modules, encoder.tiles, beginning.actions)
     match beginning.readings.first_q:
         case "zero":
             return np.zeros(shape)

@@ -142,11 +142,15 @@ def report(
 
 
 @panel.subcommand("bound", cls=Job)
-def bound(positional: Positional = None, results: Named = None) -> None:
+def bound(positional: Positional = None, results: Named = None, study: AskedStudy = "") -> None:
     """Say by dynamic programming how good anything can be (tables/bound.parquet)."""
     from upswing.optimal.bound import write_bound
+    from upswing.runs.study_file import read_study
+    from upswing.study.paths import STUDY
 
-    write_bound(results_folder(results, positional))
+    folder = results_folder(results, positional)
+    there = (folder / STUDY).exists()
+    write_bound(folder, asked_study(study) or (read_study(folder) if there else None))
 
 
 @panel.subcommand("tiles", cls=Job)

@@ -6,20 +6,19 @@ are judged, ordered, tried out and drawn, and options of its own, stand there in
 """
 
 from collections.abc import Mapping
-from math import pi
+from math import pi, radians
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from upswing.physics import track
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum, energy
+from upswing.physics.track import Endless, Track, track_of
 from upswing.study.loading import load
+from upswing.study.physical import StartOptions, TrackOptions
 from upswing.study.readings import Readings
 
-ACCELERATIONS = (-10.0, 0.0, 10.0)
-"""What the three actions do to the cart [m/s²] (§4.4)."""
-
-ACTIONS = len(ACCELERATIONS)
 HORIZONTAL = pi / 2
 """The critical angle of §4.5, where the pendulum is horizontal [rad]."""
 
@@ -41,6 +40,7 @@ class Task(NamedTuple):
     velocity_weight: float = 0.0  # beyond the thesis: −w·φ̇² is added to the reward [s²]
     shaping: float = 0.0  # beyond the thesis: the height of the potential of energy [rad²]
     start_middle: float = 0.0  # the middle of the starts [rad]: π to start hanging
+    track: Endless | Track = Endless()  # how far the cart can go
 
 
 RANDOM_START_VELOCITY = 2.0
@@ -63,9 +63,14 @@ def create(kind: str, readings: Readings, options: Mapping[str, Any] | None = No
     """A task, by the name of its file in this folder; ``options`` as in the configuration."""
     given = options or {}
     task: Task = load("tasks", kind).create(Plan(readings, given))
+    start = StartOptions.model_validate(given.get("start", {}))
     return task._replace(
         velocity_weight=float(given.get("velocity_weight", 0.0)),
         shaping=float(given.get("shaping", 0.0)),
+        track=track_of(TrackOptions.model_validate(given.get("track", {}))),
+        start_middle=task.start_middle if start.middle is None else radians(start.middle),
+        start_angle=task.start_angle if start.within is None else radians(start.within),
+        start_velocity=task.start_velocity if start.velocity is None else float(start.velocity),
     )
 
 
@@ -80,9 +85,9 @@ def start(task: Task, starts: np.random.Generator) -> tuple[float, float]:
 
 
 @compiled
-def fallen(task: Task, angle: float) -> bool:
-    """Whether φ [rad] is beyond the critical angle."""
-    return abs(angle) > task.critical_angle
+def fallen(task: Task, angle: float, cart_position: float) -> bool:
+    """Whether φ [rad] is beyond the critical angle, or the cart, at x [m], at an end where runs end."""
+    return abs(angle) > task.critical_angle or track.ends_run(task.track, cart_position)
 
 
 @compiled

@@ -11,18 +11,24 @@ from typing import NamedTuple
 import numpy as np
 import rerun as rr
 
-from upswing.agents.features.grid import VELOCITY_LIMIT
-from upswing.physics.tasks import ACCELERATIONS
+from upswing.physics.actions import signed
+from upswing.runs.recording.actions import Colour, action_colours, action_names
 
 SIDE = 80
 """Of a map, about: a tile has as many whole pixels as come to that [pixels]."""
 
-LEFT, ABOVE, BELOW = 24, 14, 74
-"""Room that a view leaves beside a map, for axes and legend [pixels]."""
+LEFT, ABOVE = 24, 14
+"""Room that a view leaves beside a map, for the axes [pixels]."""
 
-ACTION_COLOURS = ((0, 114, 178), (221, 221, 221), (213, 94, 0))
-ACTION_NAMES = [f"{ẍ:+.0f} m/s²" if ẍ else "0 m/s²" for ẍ in ACCELERATIONS]
-UNDECIDED_COLOUR = (90, 90, 90)
+LEGEND, ROW = 15, 7
+"""How far below a map its legend begins, and the height of a row of it [pixels]."""
+
+FEW = 5
+"""So many actions have a row each in the legend; of more, some stand side by side."""
+
+ABREAST, APART = 4, 22
+"""Number of actions side by side, and the distance from one to the next [pixels]."""
+
 MODULES = ("balancing", "upswing")
 
 VIRIDIS = (
@@ -41,6 +47,7 @@ class Grid(NamedTuple):
 
     parts: tuple[int, ...]  # of φ and of φ̇
     angle_limit: float  # they cover ± this [rad]
+    velocity_limit: float  # … and ± this [rad/s]
     modules: int
 
     @property
@@ -60,15 +67,56 @@ class Grid(NamedTuple):
         return self.parts[1] * self.pixels[1]
 
 
-def module_colour(module: int, action: int) -> tuple[int, int, int]:
+class Legend(NamedTuple):
+    """A colour of the policy's map in words."""
+
+    words: str
+    across: float  # from the middle of the map [pixels]
+    row: int
+    colour: Colour
+
+
+def below(actions: int) -> int:
+    """Room that a view leaves below a map for axes and a legend of so many actions [pixels]."""
+    most = legend(2, tuple(map(float, range(actions))))
+    return LEGEND + ROW * (most[-1].row + 1) + ROW + 3
+
+
+@cache
+def legend(modules: int, accelerations: tuple[float, ...]) -> tuple[Legend, ...]:
+    """What the colours of the policy's map mean; ``accelerations`` are the actions' [m/s²]."""
+    found: list[Legend] = []
+    row = 0
+    few = len(accelerations) <= FEW
+    for module in range(modules):
+        colours = [of_module(colour, module) for colour in action_colours(accelerations)]
+        of = f"{MODULES[module]}: " if modules > 1 else ""
+        if few:
+            for name, colour in zip(action_names(accelerations), colours, strict=True):
+                found.append(Legend(f"{of}{name}", 0.0, row, colour))
+                row += 1
+            continue
+        found.append(Legend(f"{of}cart acceleration [m/s²]", 0.0, row, GREY))
+        names = map(signed, accelerations)
+        for place, (name, colour) in enumerate(zip(names, colours, strict=True)):
+            down, across = divmod(place, ABREAST)
+            middle = (ABREAST - 1) / 2
+            found.append(Legend(name, (across - middle) * APART, row + 1 + down, colour))
+        row = found[-1].row + 1
+    return (*found, Legend("undecided: dark", 0.0, row, GREY))
+
+
+def of_module(colour: Colour, module: int) -> Colour:
     """The colour of an action that a module chose: darker for the second."""
-    red, green, blue = (int(part * (1 - 0.25 * module)) for part in ACTION_COLOURS[action])
+    red, green, blue = (int(part * (1 - 0.25 * module)) for part in colour)
     return red, green, blue
 
 
-def draw_axes(recording: rr.RecordingStream, grid: Grid, lowest: float) -> None:
+def draw_axes(
+    recording: rr.RecordingStream, grid: Grid, accelerations: tuple[float, ...], lowest: float
+) -> None:
     """Axes of both maps, the policy's legend, and the value's scale down to ``lowest`` [rad²]."""
-    for entity, content in _always(grid).items():
+    for entity, content in _always(grid, accelerations).items():
         recording.log(entity, content, static=True)
     middle, low = grid.width / 2, grid.height + 22
     places = [*_ticks(grid).places, (middle - 34, low), (middle + 34, low), (middle, low + 8)]
@@ -86,18 +134,16 @@ class Texts(NamedTuple):
 
 
 @cache
-def _always(grid: Grid) -> dict[str, rr.LineStrips2D | rr.Points2D]:
+def _always(
+    grid: Grid, accelerations: tuple[float, ...]
+) -> dict[str, rr.LineStrips2D | rr.Points2D]:
     """What is the same for all runs with such maps, by the entity."""
     places, words = _ticks(grid)
-    legend = [
-        (f"{MODULES[module]}: {name}" if grid.modules > 1 else name, module, action)
-        for module in range(grid.modules)
-        for action, name in enumerate(ACTION_NAMES)
-    ]
-    colours = [GREY] * len(words) + [module_colour(*which) for _, *which in legend] + [GREY]
-    words = [*words, *(text for text, *_ in legend), "undecided: dark"]
-    rows = range(len(legend) + 1)
-    places = [*places, *((grid.width / 2, grid.height + 15 + 7 * row) for row in rows)]
+    said = legend(grid.modules, accelerations)
+    colours = [GREY] * len(words) + [one.colour for one in said]
+    words = [*words, *(one.words for one in said)]
+    middle, low = grid.width / 2, grid.height + LEGEND
+    places = [*places, *((middle + one.across, low + ROW * one.row) for one in said)]
     frame = _frame(grid)
     bands, shades = _scale(grid)
     return {
@@ -116,15 +162,21 @@ def _always(grid: Grid) -> dict[str, rr.LineStrips2D | rr.Points2D]:
 def _ticks(grid: Grid) -> Texts:
     """What stands at the axes."""
     found = Texts([], [])
-    limit = round(degrees(grid.angle_limit))
+    limit = degrees(grid.angle_limit)
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
         found.places.append((share * grid.width, grid.height + 1))
-        found.words.append(f"{(2 * share - 1) * limit:+.0f}°" if share != 0.5 else "φ = 0")
+        found.words.append(f"{_brief((2 * share - 1) * limit)}°" if share != 0.5 else "φ = 0")
         found.places.append((-9, share * grid.height - 4))
-        found.words.append(f"{(1 - 2 * share) * VELOCITY_LIMIT:+.0f}" if share != 0.5 else "0")
+        velocity = (1 - 2 * share) * grid.velocity_limit
+        found.words.append(_brief(velocity) if share != 0.5 else "0")
     found.places.append((0, -13))
     found.words.append("φ̇ [rad/s]")
     return found
+
+
+def _brief(value: float) -> str:
+    """A value at an axis, to three digits."""
+    return signed(float(f"{value:.3g}"))
 
 
 def _frame(grid: Grid) -> list[list[tuple[float, float]]]:
@@ -154,7 +206,8 @@ def _scale(
 
 
 def _texts(
-    places: list[tuple[float, float]], words: list[str], colours: list[tuple[int, int, int]]
+    places: list[tuple[float, float]], words: list[str], colours: list[Colour]
 ) -> rr.Points2D:
     """Words, each below its place."""
-    return rr.Points2D(places, labels=words, colors=colours, radii=[0.01])
+    # A viewer that is not asked to shows no more than thirty.
+    return rr.Points2D(places, labels=words, colors=colours, radii=[0.01], show_labels=True)

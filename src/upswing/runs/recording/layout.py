@@ -3,13 +3,11 @@
 import rerun as rr
 import rerun.blueprint as rrb
 
-from upswing.runs.recording.axes import ABOVE, BELOW, LEFT, SIDE
-from upswing.runs.recording.frames import FRAME, REAL_TIME
+from upswing.runs.recording.axes import ABOVE, LEFT, SIDE, below
+from upswing.runs.recording.frames import FRAME, real_time
 from upswing.runs.recording.labels import LABELS, OTHER_ENDINGS, label
+from upswing.runs.recording.sizes import view_of
 from upswing.study.task import Task
-
-PENDULUM_SIZE = 0.26
-"""Half the height of the picture of the pendulum [m]."""
 
 
 def whole_run() -> rrb.TimeAxis:
@@ -34,14 +32,14 @@ def table_layout(task: Task) -> rrb.TableBlueprint:
     columns += [
         rrb.table.Column(
             f"property:run:{name}",
-            name=label(name),
+            name=label(name, task),
             # The viewer puts every other kind of text into quotation marks.
             column_type=rr.components.EntityPath if name == "architecture" else None,
         )
         for name in names
     ]
     columns += [
-        rrb.table.Column(f"property:run:{name}", name=label(name), visible=False)
+        rrb.table.Column(f"property:run:{name}", name=label(name, task), visible=False)
         for name in dict.fromkeys(HIDDEN)
         if name not in names
     ]
@@ -60,7 +58,9 @@ def table_layout(task: Task) -> rrb.TableBlueprint:
 
 def run_layout(task: Task) -> rrb.Blueprint:
     """The layout of a run of a task, for a laptop's screen."""
-    limit = task.angle_limit
+    limit, pendulum, track = task.angle_limit, task.pendulum, task.track.limit
+    across, up = view_of(pendulum.length)
+    weakest, strongest = pendulum.accelerations[0], pendulum.accelerations[-1]
 
     def lines(
         name: str, *origins: str, axis: tuple[float, float] | None = None
@@ -75,15 +75,14 @@ def run_layout(task: Task) -> rrb.Blueprint:
         )
 
     around_a_map = rrb.VisualBounds2D(
-        x_range=(-LEFT, SIDE + LEFT / 2), y_range=(-ABOVE, SIDE + BELOW)
+        x_range=(-LEFT, SIDE + LEFT / 2),
+        y_range=(-ABOVE, SIDE + below(len(pendulum.accelerations))),
     )
     pictures = rrb.Vertical(
         rrb.Spatial2DView(
             name="Pendulum",
             origin="/pendulum",
-            visual_bounds=rrb.VisualBounds2D(
-                x_range=(-0.4, 0.4), y_range=(-PENDULUM_SIZE, PENDULUM_SIZE)
-            ),
+            visual_bounds=rrb.VisualBounds2D(x_range=(-across, across), y_range=(-up, up)),
         ),
         rrb.Horizontal(
             rrb.Spatial2DView(
@@ -107,7 +106,7 @@ def run_layout(task: Task) -> rrb.Blueprint:
         ),
         lines("Angle [°]", "/angle", "/envelope/angle", axis=(-1.1 * limit, 1.1 * limit)),
         lines("Angular velocity [rad/s]", "/angular_velocity"),
-        lines("Action: cart acceleration [m/s²]", "/action", axis=(-11, 11)),
+        lines("Action: cart acceleration [m/s²]", "/action", axis=(1.1 * weakest, 1.1 * strongest)),
         lines("Learning: reward and TD error [rad²]", "/learning"),
         row_shares=[1, 3, 2, 1.5, 2],
     )
@@ -120,13 +119,22 @@ def run_layout(task: Task) -> rrb.Blueprint:
                 timeline_columns=[FRAME], text_log_columns=["loglevel", "body"]
             ),
         ),
-        lines("Cart position [m]", "/cart/position"),
+        lines(
+            "Cart position [m]",
+            "/cart/position",
+            axis=None if track is None else (-1.1 * track, 1.1 * track),
+        ),
         lines("Cart velocity [m/s]", "/cart/velocity"),
         row_shares=[4, 2.5, 1, 1],
     )
     return rrb.Blueprint(
         rrb.Horizontal(pictures, curves, words, column_shares=[4, 4.5, 3.5]),
-        rrb.TimePanel(timeline=FRAME, state="collapsed", playback_speed=1.0, fps=REAL_TIME),
+        rrb.TimePanel(
+            timeline=FRAME,
+            state="collapsed",
+            playback_speed=1.0,
+            fps=real_time(pendulum.time_step),
+        ),
         rrb.SelectionPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
     )

@@ -1,38 +1,45 @@
 """The pictures of a recording: the pendulum, the phase plane, and maps of what was learned."""
 
 from functools import cache
+from math import ceil
 from typing import Any
 
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS, ACTIONS
-from upswing.runs.recording.axes import (
-    ACTION_NAMES,
-    MODULES,
-    UNDECIDED_COLOUR,
-    Grid,
-    draw_axes,
-    module_colour,
-)
-from upswing.runs.recording.frames import DRAWN_EVERY, Frames, time_columns
+from upswing.runs.recording.actions import UNDECIDED_COLOUR, action_colours, action_names
+from upswing.runs.recording.axes import MODULES, SIDE, Grid, draw_axes, of_module
+from upswing.runs.recording.frames import Frames, drawn_every, so_long, time_columns
+from upswing.runs.recording.sizes import HALF_A_CART, marks_apart, unit_of
 from upswing.runs.snapshots import Snapshots
 
-TRAIL = 24
-"""Number of drawings whose states the phase plane shows: half a second."""
+TRAIL = 96
+"""How long ago the oldest state is that the phase plane shows: half a second [steps of 5 ms]."""
 
-UNDECIDED = len(MODULES) * ACTIONS
-"""The class of a tile where several actions are equally good, as where nothing is known yet."""
+TRAIL_POINTS = 8
+"""Number of parts of the trail's line."""
 
 
 def draw_pendulum(
-    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, body: Pendulum
+    recording: rr.RecordingStream,
+    frames: Frames,
+    trajectory: Trajectory,
+    body: Pendulum,
+    track: float | None = None,
 ) -> None:
-    """The pendulum on its cart, seen from the cart; the ground passes below."""
+    """The pendulum on its cart, seen from the cart; the ground passes below.
+
+    Args:
+        recording: where it goes.
+        frames: the rows of the recording.
+        trajectory: what is drawn.
+        body: how long the pendulum is, by which everything is scaled, and what the actions are.
+        track: the cart goes no further than |x| = this [m]; None: for ever.
+    """
+    unit, apart = unit_of(body.length), marks_apart(body.length)
     shown = frames.drawn
     angle = trajectory.angle[shown].astype(np.float64)
     # The picture's y points down; with φ from upright a positive angle leans to the left.
@@ -41,37 +48,66 @@ def draw_pendulum(
     indexes = time_columns(shown, frames)
     recording.log(
         "pendulum/cart",
-        rr.Boxes2D(half_sizes=[[0.05, 0.015]], centers=[[0, 0]], colors=[[90, 90, 90]]),
+        rr.Boxes2D(
+            half_sizes=[[HALF_A_CART * unit, 0.015 * unit]], centers=[[0, 0]], colors=[[90, 90, 90]]
+        ),
         static=True,
     )
-    marks = np.arange(-8, 9) * 0.1
+    each_side = ceil(round(4 * body.length / apart, 6))
+    marks, top, bottom = np.arange(-each_side, each_side + 1) * apart, 0.03 * unit, 0.04 * unit
     recording.log(
         "pendulum/ground",
-        rr.LineStrips2D([[[x, 0.03], [x, 0.04]] for x in marks], colors=[[120, 120, 120]]),
+        rr.LineStrips2D([[[x, top], [x, bottom]] for x in marks], colors=[[120, 120, 120]]),
         static=True,
     )
     recording.log(
         "pendulum/rod",
-        rr.LineStrips2D.from_fields(colors=[[0, 158, 115]], radii=[0.006]),
+        rr.LineStrips2D.from_fields(colors=[[0, 158, 115]], radii=[0.006 * unit]),
         static=True,
     )
     recording.send_columns(
         "pendulum/rod", indexes=indexes, columns=rr.LineStrips2D.columns(strips=list(rods))
     )
     ground = np.zeros((len(shown), 3), dtype=np.float32)
-    ground[:, 0] = -(trajectory.cart_position[shown] % 0.1)
+    ground[:, 0] = -(trajectory.cart_position[shown] % apart)
     recording.send_columns(
         "pendulum/ground", indexes=indexes, columns=rr.Transform3D.columns(translation=ground)
     )
+    if track is not None:
+        _draw_ends(recording, frames, trajectory, track, unit)
     push = np.zeros((len(shown), 2), dtype=np.float32)
-    push[:, 0] = np.array(ACCELERATIONS)[trajectory.action[shown]] / 100
+    strongest = max(map(abs, body.accelerations))
+    push[:, 0] = np.array(body.accelerations)[trajectory.action[shown]] * unit / (10 * strongest)
     recording.log(
         "pendulum/push",
-        rr.Arrows2D.from_fields(colors=[[213, 94, 0]], radii=[0.004], origins=[[0, 0.022]]),
+        rr.Arrows2D.from_fields(
+            colors=[[213, 94, 0]], radii=[0.004 * unit], origins=[[0, 0.022 * unit]]
+        ),
         static=True,
     )
     recording.send_columns(
         "pendulum/push", indexes=indexes, columns=rr.Arrows2D.columns(vectors=push)
+    )
+
+
+def _draw_ends(
+    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, track: float, unit: float
+) -> None:
+    """A post at either end of the track, which the cart touches there."""
+    at = track + HALF_A_CART * unit
+    posts = [[[x, -0.06 * unit], [x, 0.04 * unit]] for x in (-at, at)]
+    recording.log(
+        "pendulum/track",
+        rr.LineStrips2D(posts, colors=[[204, 121, 167]], radii=[0.005 * unit]),
+        static=True,
+    )
+    shown = frames.drawn
+    away = np.zeros((len(shown), 3), dtype=np.float32)
+    away[:, 0] = -trajectory.cart_position[shown]
+    recording.send_columns(
+        "pendulum/track",
+        indexes=time_columns(shown, frames),
+        columns=rr.Transform3D.columns(translation=away),
     )
 
 
@@ -80,19 +116,21 @@ def draw_phase_plane(
 ) -> None:
     """The state in the plane of φ and φ̇, over the map of the policy."""
     shown = frames.drawn
-    grid = grid_of(learned)
+    grid, every = grid_of(learned), drawn_every(frames.time_step)
     width, height, limit = grid.width, grid.height, grid.angle_limit
     x = (np.clip(trajectory.angle[shown], -limit, limit) + limit) / (2 * limit) * width
-    velocity = np.clip(trajectory.angular_velocity[shown], -VELOCITY_LIMIT, VELOCITY_LIMIT)
-    y = (VELOCITY_LIMIT - velocity) / (2 * VELOCITY_LIMIT) * height
+    fastest = grid.velocity_limit
+    velocity = np.clip(trajectory.angular_velocity[shown], -fastest, fastest)
+    y = (fastest - velocity) / (2 * fastest) * height
     places = np.stack([x, y], axis=1).astype(np.float32)
     # A trail ends where the stretch began, the pendulum was reset, or φ came round.
-    new = (np.diff(shown, prepend=shown[0]) > DRAWN_EVERY) | (
+    new = (np.diff(shown, prepend=shown[0]) > every) | (
         np.abs(np.diff(places[:, 0], prepend=places[0, 0])) > width / 4
     )
     begins = np.maximum.accumulate(np.where(new, np.arange(len(shown)), 0))
+    length, part = trail(frames.time_step)
     trails = [
-        places[max(begin, end - TRAIL) : end + 1 : 3] if end > begin else places[[end, end]]
+        places[max(begin, end - length) : end + 1 : part] if end > begin else places[[end, end]]
         for end, begin in enumerate(begins)
     ]
     recording.log(
@@ -114,8 +152,19 @@ def draw_phase_plane(
     )
 
 
+def trail(time_step: float) -> tuple[int, int]:
+    """The length of the trail, and of a part of its line, for steps of ``time_step`` [s] [drawings]."""
+    drawings = max(1, so_long(TRAIL, time_step) // drawn_every(time_step))
+    part = max(1, -(-drawings // TRAIL_POINTS))
+    return drawings - drawings % part, part
+
+
 def draw_learned(
-    recording: rr.RecordingStream, frames: Frames, learned: Snapshots, unit: float = 1.0
+    recording: rr.RecordingStream,
+    frames: Frames,
+    learned: Snapshots,
+    body: Pendulum,
+    unit: float = 1.0,
 ) -> None:
     """Value and greedy policy over the grid, as they grew, with axes and what their colours mean.
 
@@ -123,19 +172,23 @@ def draw_learned(
         recording: where they go.
         frames: the rows of the recording.
         learned: what is shown; its values divided by ``unit`` are in rad².
+        body: what the actions are.
         unit: of the values (R3), in rad².
     """
-    grid = grid_of(learned)
-    recording.log("learned", _classes(grid.modules), static=True)
-    recording.log("phase", _classes(grid.modules), static=True)
+    best = learned.q.max(axis=-1)
+    learned = _thinned(learned)
+    grid, actions = grid_of(learned), len(body.accelerations)
+    classes = _classes(grid.modules, body.accelerations)
+    recording.log("learned", classes, static=True)
+    recording.log("phase", classes, static=True)
     finite = np.nan_to_num(learned.q, nan=0.0, posinf=0.0, neginf=np.finfo(np.float64).min)
     equals = (finite == finite.max(axis=-1, keepdims=True)).sum(axis=-1)
-    policy = np.where(equals > 1, UNDECIDED, finite.argmax(axis=-1) + ACTIONS * learned.owner)
+    chosen = finite.argmax(axis=-1) + actions * learned.owner
+    policy = np.where(equals > 1, undecided(actions), chosen)
     value = finite.max(axis=-1)
-    best = learned.q.max(axis=-1)
     lowest = min(float(best[np.isfinite(best)].min(initial=0)), -1e-9)
     shade = np.round(255 * (1 - np.clip(value, lowest, 0) / lowest))
-    draw_axes(recording, grid, lowest / unit)
+    draw_axes(recording, grid, body.accelerations, lowest / unit)
     steps = np.minimum(learned.steps, frames.steps[-1])
     for entity, maps, kind in (
         ("learned/policy", policy, rr.SegmentationImage),
@@ -165,22 +218,40 @@ def draw_learned(
 
 def grid_of(learned: Snapshots) -> Grid:
     """Of what the maps of a run are pictures."""
-    return Grid(learned.owner.shape, learned.angle_limit, int(learned.owner.max()) + 1)
+    owner, modules = _thinned(learned).owner, int(learned.owner.max()) + 1
+    return Grid(owner.shape, learned.angle_limit, learned.velocity_limit, modules)
+
+
+def _thinned(learned: Snapshots) -> Snapshots:
+    """Only every second part, or third …, where there are more than a map has pixels."""
+    rows, columns = (
+        slice((every := -(-parts // SIDE)) // 2, None, every) for parts in learned.owner.shape
+    )
+    return learned._replace(q=learned.q[:, rows, columns], owner=learned.owner[rows, columns])
+
+
+def undecided(actions: int) -> int:
+    """The class of a tile where several of the actions are equally good, as where nothing is known."""
+    return len(MODULES) * actions
 
 
 @cache
-def _classes(modules: int) -> rr.AnnotationContext:
+def _classes(modules: int, accelerations: tuple[float, ...]) -> rr.AnnotationContext:
     """What the classes of the policy's map are called and how they are coloured."""
+    names, colours = action_names(accelerations), action_colours(accelerations)
+    actions = len(accelerations)
     classes = [
         rr.AnnotationInfo(
-            id=module * ACTIONS + action,
-            label=f"{MODULES[module]}: {name}" if modules > 1 else name,
-            color=module_colour(module, action),
+            id=module * actions + action,
+            label=f"{MODULES[module]}: {names[action]}" if modules > 1 else names[action],
+            color=of_module(colours[action], module),
         )
         for module in range(modules)
-        for action, name in enumerate(ACTION_NAMES)
+        for action in range(actions)
     ]
-    classes.append(rr.AnnotationInfo(id=UNDECIDED, label="undecided", color=UNDECIDED_COLOUR))
+    classes.append(
+        rr.AnnotationInfo(id=undecided(actions), label="undecided", color=UNDECIDED_COLOUR)
+    )
     return rr.AnnotationContext(classes)
 
 

@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from upswing.physics.pendulum import Pendulum
+from upswing.physics.actions import signed
 from upswing.runs.metrics import END, STABLE_STEPS, last_fifth
 from upswing.runs.recording.axes import MODULES
-from upswing.runs.recording.frames import REAL_TIME, Frames
+from upswing.runs.recording.frames import Frames, real_time
 from upswing.runs.recording.labels import OTHER_ENDINGS, label
+from upswing.runs.recording.sizes import in_words, marks_apart
 from upswing.runs.success import SUCCESS
 from upswing.study.measured import Measures
 from upswing.study.names import alpha_text
@@ -21,10 +22,10 @@ NOT_TOLD = {"spec", "digest", "task", "architecture", "alpha", "seed", *OTHER_EN
 
 COLOURS = """\
 **Pendulum**: seen from the cart. The green rod is the pendulum, the orange arrow the cart's
-acceleration; the marks on the ground are 10 cm apart and pass as the cart drives.
+acceleration; the marks on the ground are {marks} apart and pass as the cart drives.{track}
 
 **Policy**: the greedy action in each tile of angle φ (to the right, 0 is upright) and angular velocity φ̇
-(upwards). Blue accelerates the cart by −10 m/s², pale by 0, orange by +10 m/s²; dark grey is undecided.
+(upwards). {actions}; dark grey is undecided.
 {modules}The black dot is the state, its tail the last half second.
 
 **Value**: the reward to come, as the learner believes. Yellow is 0, the best; purple is the lowest of
@@ -32,6 +33,8 @@ this run.
 
 **Angle**: grey lines are the lowest and the highest angle over the whole run, on the timelines `step`
 and `sim_time`."""
+
+ENDS = " The posts are the ends of the track, {limit:g} m from its middle."
 
 TWO_MODULES = "Paler colours are of the module for {}, darker ones of that for {}. "
 
@@ -56,9 +59,8 @@ def about(
     """
     task, architecture = spec.task, spec.architecture
     alpha = "" if spec.alpha is None else f", step size α = {alpha_text(spec.alpha)}"
-    modules = TWO_MODULES.format(*MODULES) if architecture.is_modular else ""
     numbers = "\n".join(
-        f"| {label(name)} | {_brief(value)} |"
+        f"| {label(name, task)} | {_brief(value)} |"
         for name, value in properties.items()
         if value is not None and name not in NOT_TOLD
     )
@@ -69,7 +71,7 @@ def about(
 
 {_of_frames(frames)}
 
-{COLOURS.format(modules=modules)}
+{colours(spec)}
 
 **{architecture.name}**: {architecture.in_words()}. Of 100 actions {100 * spec.epsilon:g} are random; the
 discount γ is {spec.discount:g}.
@@ -96,8 +98,8 @@ def story(task: Task, measures: Measures, last_fall: int | None) -> str:
             f"any more, and nothing after it means anything. {fell}; the run counts neither for nor "
             "against anything."
         )
-    seconds = STABLE_STEPS * Pendulum().time_step
-    stable = f"{STABLE_STEPS:,} steps ({seconds:g} s)"
+    length = task.steps_of(STABLE_STEPS)
+    stable = f"{length:,} steps ({length * task.pendulum.time_step:g} s)"
     kept = "without a fall" if by_falls else f"with {100 * SUCCESS:.0f} % of them upright"
     if measures.first_stable_step is None:
         stood = f"It was never stable: there are no {stable} {kept}."
@@ -111,13 +113,33 @@ def story(task: Task, measures: Measures, last_fall: int | None) -> str:
         if not ended:
             end = f"{fell}, and not once in its last fifth: **it balances**."
     else:
-        last = measures.steps - max(last_fifth(measures.steps), measures.steps - END)
+        last = measures.steps - max(last_fifth(measures.steps), measures.steps - task.steps_of(END))
         stands = "stands" if measures.upright_at_end >= SUCCESS else "does not stand"
         end = (
             f"{fell}, and was upright for {100 * measures.upright_at_end:.3g} % of its last {last:,} "
             f"steps: **it {stands} at the end**."
         )
     return f"{stood} {end}"
+
+
+def colours(spec: Spec) -> str:
+    """What one sees of a run and what its colours mean, in Markdown."""
+    pendulum, track = spec.task.pendulum, spec.task.track.limit
+    return COLOURS.format(
+        marks=in_words(marks_apart(pendulum.length)),
+        track="" if track is None else ENDS.format(limit=track),
+        actions=_of_actions(pendulum.accelerations),
+        modules=TWO_MODULES.format(*MODULES) if spec.architecture.is_modular else "",
+    )
+
+
+def _of_actions(accelerations: tuple[float, ...]) -> str:
+    """What the colours of actions mean; accelerations in m/s²."""
+    left, right = signed(accelerations[0]), signed(accelerations[-1])
+    none = "pale by 0, " if 0 in accelerations else ""
+    between = len(accelerations) - (3 if none else 2)
+    others = ", and what is between by less: the paler, the less" if between else ""
+    return f"Blue accelerates the cart by {left} m/s², {none}orange by {right} m/s²{others}"
 
 
 def _of_frames(frames: Frames) -> str:
@@ -127,8 +149,9 @@ def _of_frames(frames: Frames) -> str:
         f"| {part.name} | {begin:,} | {part.first:,} to {part.after - 1:,} |"
         for part, begin in zip(frames.named, begins.tolist(), strict=True)
     )
+    speed = f"{real_time(frames.time_step):g} frames a second"
     return f"""\
-The timeline `frame` plays these stretches, one after another, at **{REAL_TIME:g} frames a second: as
+The timeline `frame` plays these stretches, one after another, at **{speed}: as
 fast as it happened**. The speed stands at the bottom, beside the timeline, and can be changed there.
 
 | stretch | from frame | steps |

@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from upswing.physics.environment import Trajectory
 from upswing.physics.pendulum import Pendulum
-from upswing.physics.tasks import ACCELERATIONS
 from upswing.runs.files.atomic import written
 from upswing.runs.recording.frames import (
     SIM_TIME,
     STEP,
     TIMELINES,
     Frames,
-    Real,
+    jumps,
     rounded,
     stretches,
     time_columns,
@@ -66,18 +65,18 @@ def write_recording(
     try:
         rr.send_recording_name(run, recording=recording)
         recording.send_property("run", rr.AnyValues(**_known(properties)))
-        frames = stretches(trajectory, windows, measures.first_stable_step)
+        frames = stretches(trajectory, windows, measures.first_stable_step, body.time_step)
         spec = parse(properties["spec"])
         fell = last_fall(trajectory, windows)
         words = about(spec, seed_of(run), measures, fell, frames, properties)
         recording.log("about", rr.TextDocument(words, media_type="text/markdown"), static=True)
-        draw_lines(recording, frames, trajectory)
+        draw_lines(recording, frames, trajectory, body)
         draw_stretches(recording, frames)
         draw_envelope(recording, windows, frames)
-        draw_pendulum(recording, frames, trajectory, body)
+        draw_pendulum(recording, frames, trajectory, body, spec.task.track.limit)
         draw_phase_plane(recording, frames, trajectory, learned)
         unit = REWARD_SCALES[spec.readings.reward_unit]
-        draw_learned(recording, frames, learned, unit)
+        draw_learned(recording, frames, learned, body, unit)
         _events(recording, frames, happenings(trajectory, windows, measures, frames))
         content = memory.drain_as_bytes()
     finally:
@@ -86,13 +85,15 @@ def write_recording(
         beside.write_bytes(content)
 
 
-def draw_lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory) -> None:
+def draw_lines(
+    recording: rr.RecordingStream, frames: Frames, trajectory: Trajectory, body: Pendulum
+) -> None:
     """Angle, velocity, cart, action, reward and TD error of every step of the stretches."""
     at = np.minimum(frames.steps, len(trajectory.angle) - 1)
-    accelerations = np.array(ACCELERATIONS)[trajectory.action[at]]
+    accelerations = np.array(body.accelerations)[trajectory.action[at]]
     angle = np.degrees(trajectory.angle[at])
     lines: dict[str, dict[str, NDArray[Any]]] = {
-        "angle": {"φ": np.where(_jumps(angle), np.nan, angle)},
+        "angle": {"φ": np.where(jumps(angle, frames.time_step), np.nan, angle)},
         "angular_velocity": {"φ̇": trajectory.angular_velocity[at]},
         "cart/position": {"x": trajectory.cart_position[at]},
         "cart/velocity": {"ẋ": trajectory.cart_velocity[at]},
@@ -114,11 +115,6 @@ def draw_lines(recording: rr.RecordingStream, frames: Frames, trajectory: Trajec
                 [values.shape[1]] * len(values)
             ),
         )
-
-
-def _jumps(angle: Real) -> NDArray[np.bool_]:
-    """Where an angle [°] has come round or was reset: no line leads there."""
-    return np.abs(np.diff(angle, prepend=angle[:1])) > 60
 
 
 def draw_envelope(recording: rr.RecordingStream, windows: Windows, frames: Frames) -> None:

@@ -1,6 +1,6 @@
 """Backpropagation through one hidden layer from the state as it is, without tiles (§3.3).
 
-The inputs are sine and cosine of φ, so that it may come round, and φ̇ in units of the grid's limit.
+The inputs are sine and cosine of φ, so that it may come round, and φ̇ in units of 20 rad/s.
 """
 
 from collections.abc import Mapping, Sequence
@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from upswing.agents.features import Point
-from upswing.agents.features.grid import VELOCITY_LIMIT
 from upswing.agents.learners import Array, update_of, values_of
 from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.policy import Q
 from upswing.physics.elementary import sine_and_cosine
-from upswing.physics.jit import inlined
+from upswing.physics.jit import inlined, with_item
 
 INPUTS = 3
+VELOCITY_UNIT = 20.0
+"""φ̇ goes in in units of this [rad/s]: what the thesis cuts into tiles."""
 
 
 class Dense(NamedTuple):
@@ -30,6 +31,7 @@ class Dense(NamedTuple):
     learns_hidden_bias: bool
     learns_output_bias: bool
     learning_rate: float  # η
+    zeros: Q  # as many as there are actions
 
 
 def dense(
@@ -46,6 +48,7 @@ def dense(
         learns_hidden_bias=0 in biases,
         learns_output_bias=1 in biases,
         learning_rate=learning_rate,
+        zeros=(0.0,) * actions,
     )
 
 
@@ -53,7 +56,7 @@ def dense(
 def inputs(point: Point) -> tuple[float, float, float]:
     """What the networks are told of a state."""
     sine, cosine = sine_and_cosine(point.angle)
-    return sine, cosine, point.angular_velocity / VELOCITY_LIMIT
+    return sine, cosine, point.angular_velocity / VELOCITY_UNIT
 
 
 @inlined
@@ -81,8 +84,10 @@ def value(net: Dense, module: int, action: int, x: tuple[float, float, float]) -
 @values_of(Dense)
 def _values(net: Dense, point: Point) -> Q:
     x = inputs(point)
-    module = point.module
-    return value(net, module, 0, x), value(net, module, 1, x), value(net, module, 2, x)
+    q = net.zeros
+    for action in range(len(q)):
+        q = with_item(q, action, value(net, point.module, action, x))
+    return q
 
 
 @update_of(Dense)

@@ -17,8 +17,7 @@ from upswing.agents.learners import Array, update_of, values_of
 from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.learners.backpropagation.product import product
 from upswing.agents.policy import Q
-from upswing.physics.jit import inlined
-from upswing.physics.tasks import ACTIONS
+from upswing.physics.jit import inlined, with_item
 
 Counter = NDArray[np.int64]
 STALE = -1
@@ -47,6 +46,7 @@ class OneHidden(NamedTuple):
     learns_hidden_bias: bool
     learns_output_bias: bool
     learning_rate: float  # η
+    zeros: Q  # as many as there are actions
     kept: Kept
 
 
@@ -64,6 +64,7 @@ def one_hidden(
         learns_hidden_bias=0 in biases,
         learns_output_bias=1 in biases,
         learning_rate=learning_rate,
+        zeros=(0.0,) * actions,
         kept=nothing_kept(input_weights.shape),
     )
 
@@ -107,13 +108,15 @@ def forget(kept: Kept, learns_hidden_bias: bool, module: int, action: int, tile:
 @values_of(OneHidden)
 def _values(net: OneHidden, place: Place) -> Q:
     kept, module, tile = net.kept, place.module, place.tiles[0]
-    for action in range(ACTIONS):
+    q = net.zeros
+    for action in range(len(q)):
         if kept.q_at[module, action, tile] != kept.updates[module, action]:
             activate(kept, net.input_weights, net.hidden_bias, module, action, tile)
             v, h = net.output_weights[module, action], kept.hidden[module, action, tile]
             kept.q[module, action, tile] = net.output_bias[module, action] + product(v, h)
             kept.q_at[module, action, tile] = kept.updates[module, action]
-    return kept.q[module, 0, tile], kept.q[module, 1, tile], kept.q[module, 2, tile]
+        q = with_item(q, action, kept.q[module, action, tile])
+    return q
 
 
 @update_of(OneHidden)

@@ -15,8 +15,7 @@ from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.learners.backpropagation.one_hidden import Kept, activate, forget, nothing_kept
 from upswing.agents.learners.backpropagation.product import product
 from upswing.agents.policy import Q
-from upswing.physics.jit import inlined
-from upswing.physics.tasks import ACTIONS
+from upswing.physics.jit import inlined, with_item
 
 
 class TwoHidden(NamedTuple):
@@ -31,6 +30,7 @@ class TwoHidden(NamedTuple):
     learns_hidden_bias: bool
     learns_output_bias: bool
     learning_rate: float  # η
+    zeros: Q  # as many as there are actions
     kept: Kept
     second: Array  # kept activations of the second layer, as old as kept.q
     backward: Array  # room for the error signal that reaches the first layer: (first,)
@@ -53,6 +53,7 @@ def two_hidden(
         learns_hidden_bias=0 in biases,
         learns_output_bias=2 in biases,
         learning_rate=learning_rate,
+        zeros=(0.0,) * actions,
         kept=nothing_kept(input_weights.shape),
         second=np.zeros((modules, actions, tiles, second)),
         backward=np.zeros(first),
@@ -80,9 +81,11 @@ def evaluate(net: TwoHidden, module: int, action: int, tile: int) -> None:
 @values_of(TwoHidden)
 def _values(net: TwoHidden, place: Place) -> Q:
     kept, module, tile = net.kept, place.module, place.tiles[0]
-    for action in range(ACTIONS):
+    q = net.zeros
+    for action in range(len(q)):
         evaluate(net, module, action, tile)
-    return kept.q[module, 0, tile], kept.q[module, 1, tile], kept.q[module, 2, tile]
+        q = with_item(q, action, kept.q[module, action, tile])
+    return q
 
 
 @update_of(TwoHidden)
