@@ -19,6 +19,7 @@ from upswing.physics import tasks
 from upswing.physics.environment import State, empty_trajectory, move
 from upswing.physics.jit import compiled
 from upswing.runs.evaluation import evaluate
+from upswing.runs.metrics import UPRIGHT
 from upswing.runs.simulation import prepare, streams
 from upswing.study.architecture import architecture_named, architecture_of
 from upswing.study.readings import Readings
@@ -148,25 +149,33 @@ def test_the_compiled_network_is_the_librarys(hidden):
     )
 
 
-def test_what_is_followed_without_exploring_is_the_librarys_own_prediction():
-    spec = spec_of("full-control", steps=4_000, ties="first")
+def test_what_is_evaluated_is_the_librarys_own_prediction():
+    """The oracle asks ``predict`` from each start of the evaluation, and counts for itself."""
+    spec = spec_of()
     setting = prepare(spec, SEED)
-    setting.advance(empty_trajectory(4_000), 0, 4_000)
-    frozen = replace(
-        setting,
-        rule=setting.rule._replace(step_size=0.0, epsilon=0.0),
-        state=State(2.5, 0.0, 0.0, 0.0),
-    )
-    decisions, model = 500, setting.learner.model
-    path = empty_trajectory(decisions * REPEAT)
-    taken = []
-    for first in range(0, decisions * REPEAT, REPEAT):
-        state = frozen.state
-        seen = inputs(Point(0, state.angle, state.angular_velocity))
-        taken.append(int(model.predict(np.array(seen, np.float32), deterministic=True)[0]))
-        frozen.advance(path, first, first + REPEAT)
-    assert len(set(taken)) == 3
-    np.testing.assert_array_equal(path.action, np.repeat(taken, REPEAT))
+    setting.advance(empty_trajectory(3_000), 0, 3_000)
+    body, task, model = setting.body, setting.task, setting.learner.model
+    *_, stream, _ = streams(SEED)
+    angles, solved, taken = [], [], set()
+    for angle in spec.task.greedy_starts:
+        state, decides, falls = State(float(angle), 0.0, 0.0, 0.0), True, 0
+        for t in range(spec.task.greedy_steps):
+            stream.random()
+            angles.append(state.angle)
+            if decides or t % REPEAT == 0:
+                seen = inputs(Point(0, state.angle, state.angular_velocity))
+                action, _ = model.predict(np.array(seen, np.float32), deterministic=True)
+                taken.add(int(action))
+            state = move(body, task, state, body.accelerations[int(action)])
+            decides = tasks.fallen(task, state.angle, state.cart_position)
+            if decides:
+                state, falls = State(*tasks.start(task, stream), 0.0, 0.0), falls + 1
+        solved.append(falls == 0)
+    upright = np.mean(np.cos(np.array(angles, np.float32)) >= np.cos(UPRIGHT))
+    found = evaluate(setting, spec, SEED)
+    assert found == pytest.approx((np.mean(solved), upright), rel=1e-12)
+    assert len(taken) > 1
+    assert found.greedy_upright_share < 1
 
 
 def test_the_memory_holds_the_latest_decisions_and_no_others():
@@ -291,7 +300,9 @@ def test_without_a_step_size_nothing_changes_and_learning_goes_on_as_before():
     setting.advance(trajectory, 0, 1_501)  # in the middle of a decision and between updates
     before = everything(setting.learner)
     evaluate(setting, spec, SEED)
-    idle = replace(setting, rule=setting.rule._replace(step_size=0.0), actions=next(streams(5)))
+    actions, starts, *_ = streams(5)
+    still = setting.rule._replace(step_size=0.0)
+    idle = replace(setting, rule=still, actions=actions, starts=starts)
     idle.advance(silent := empty_trajectory(2_000), 0, 2_000)
     assert np.isnan(silent.td_error).all()
     assert (silent.angle != 0).all()
