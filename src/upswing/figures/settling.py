@@ -42,8 +42,8 @@ def draw(results: "Results") -> "Drawing":
             worse.semilogx(one["backups"], 100 * one["worse"], label=method, **style)
         error.set_title(f"γ = {discount:g}")
         worse.set_xlabel("values of (s, a) computed, in sweeps over all states")
-    rows[0][0].set_ylabel("largest |V − V*| [rad²]")
-    rows[1][0].set_ylabel("states with a worse action [%]")
+    rows[0][0].set_ylabel("largest |V − V*|\n[rad²]")
+    rows[1][0].set_ylabel("states with a\nworse action [%]")
     handles, labels = rows[1][0].get_legend_handles_labels()
     legend = figure.legend(
         handles, labels, loc="outside upper center", ncols=len(methods), frameon=False
