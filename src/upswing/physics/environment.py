@@ -93,7 +93,7 @@ def transition(
     starts: np.random.Generator,
 ) -> Transition:
     """Take ``action``, an index into the body's accelerations; after a fall the run starts anew."""
-    after = move(body, task, state, body.accelerations[action])
+    after = move(body, task, state, pendulum.acceleration_of(body.accelerations, action))
     seen = after
     fell = tasks.fallen(task, after.angle, after.cart_position)
     if fell:

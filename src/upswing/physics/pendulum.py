@@ -5,14 +5,25 @@ position, while reward, start and reset of §4.4–4.5 have it zero upright (rea
 gravity and the cart's torque change sign. Velocities are printed in m/s where they are rad/s.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from upswing.physics.elementary import sine_and_cosine
-from upswing.physics.jit import compiled
+from upswing.physics.jit import ByType, compiled
 from upswing.study.physical import PendulumOptions
 
 FROM_UPRIGHT = 1.0
 FROM_HANGING = -1.0
+
+
+LEFT, NONE, RIGHT = -10.0, 0.0, 10.0
+
+
+class ThesisActions(NamedTuple):
+    """ẍ of the actions of §4.4 [m/s²], known while the loop is compiled: choosing one costs no jump."""
+
+    left: float = LEFT
+    none: float = NONE
+    right: float = RIGHT
 
 
 class Pendulum(NamedTuple):
@@ -24,11 +35,12 @@ class Pendulum(NamedTuple):
     friction: float = 0.001  # f_c [N·m·s]: the torque is −f_c·φ̇ (eq. 17), so friction is viscous
     time_step: float = 0.005  # dt [s]
     orientation: float = FROM_UPRIGHT  # where φ = 0 is (R1); FROM_HANGING is eq. 13 as printed
-    accelerations: tuple[float, ...] = (-10.0, 0.0, 10.0)  # ẍ of each action [m/s²], ascending
+    accelerations: tuple[float, ...] = ThesisActions()  # ẍ of each action [m/s²], ascending
 
 
 def body_of(options: PendulumOptions, orientation: float = FROM_UPRIGHT) -> Pendulum:
     """The pendulum of a task."""
+    accelerations = tuple(map(float, options.accelerations))
     return Pendulum(
         mass=float(options.mass),
         length=float(options.length),
@@ -36,8 +48,23 @@ def body_of(options: PendulumOptions, orientation: float = FROM_UPRIGHT) -> Pend
         friction=float(options.friction),
         time_step=float(options.time_step),
         orientation=orientation,
-        accelerations=tuple(map(float, options.accelerations)),
+        accelerations=ThesisActions() if accelerations == ThesisActions() else accelerations,
     )
+
+
+def _acceleration_of(accelerations: Any, action: int) -> float:
+    acceleration: float = accelerations[action]
+    return acceleration
+
+
+_acceleration_by_type = ByType(_acceleration_of)
+acceleration_of = _acceleration_by_type.call
+"""ẍ [m/s²] of an action, an index into a pendulum's ``accelerations``."""
+
+
+@_acceleration_by_type.register(ThesisActions)
+def _acceleration_of_thesis(_accelerations: ThesisActions, action: int) -> float:
+    return (LEFT, NONE, RIGHT)[action]
 
 
 @compiled

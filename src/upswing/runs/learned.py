@@ -63,7 +63,7 @@ class Learned:
     @property
     def accelerations(self) -> tuple[float, ...]:
         """What each action does to the cart [m/s²], ascending: −10, 0 and +10 in the thesis."""
-        return self.setting.body.accelerations
+        return tuple(self.setting.body.accelerations)
 
     def values(self, angle: ArrayLike, angular_velocity: ArrayLike) -> Real:
         """Q of the actions [the unit of R3] in states φ [rad], φ̇ [rad/s].

@@ -7,7 +7,15 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from upswing.physics import pendulum
-from upswing.physics.pendulum import FROM_HANGING, FROM_UPRIGHT, Pendulum
+from upswing.physics.pendulum import (
+    FROM_HANGING,
+    FROM_UPRIGHT,
+    Pendulum,
+    ThesisActions,
+    acceleration_of,
+    body_of,
+)
+from upswing.study.physical import PendulumOptions
 
 angles = st.floats(-np.pi, np.pi)
 velocities = st.floats(-20, 20)
@@ -114,3 +122,13 @@ def test_cart_follows_equations_24_and_25():
     position, velocity = pendulum.step_cart(Pendulum(), 1.0, 2.0, 10.0)
     assert position == pytest.approx(1.0 + 2.0 * 0.005 + 10.0 * 0.005**2)
     assert velocity == pytest.approx(2.05)
+
+
+def test_the_thesiss_actions_are_known_and_others_asked_for():
+    thesis = body_of(PendulumOptions())
+    assert isinstance(thesis.accelerations, ThesisActions)
+    assert thesis == Pendulum()
+    other = body_of(PendulumOptions(accelerations=(-20, -5, 0, 5, 20))).accelerations
+    assert not isinstance(other, ThesisActions)
+    assert [acceleration_of(thesis.accelerations, action) for action in range(3)] == [-10, 0, 10]
+    assert [acceleration_of(other, action) for action in range(5)] == [-20, -5, 0, 5, 20]
