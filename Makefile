@@ -76,7 +76,7 @@ readings: install ## Judge every claim under other readings too (40 minutes on 2
 
 # Two calls: a call of Snakemake has one configuration, and the page that shows the chapter is of another study.
 .PHONY: beyond
-beyond: install ## Run what goes beyond the thesis (half an hour on 2 cores), into results/beyond
+beyond: install ## Run what goes beyond the thesis (forty minutes on 2 cores), into results/beyond
 	@$(call run,config/beyond.yaml)
 	@if test -e results/report/index.html; then $(SNAKEMAKE) --configfile config/config.yaml; fi
 	@echo "The chapter is at results/beyond/report/index.html"

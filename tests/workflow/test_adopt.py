@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import pandas as pd
-import pytest
 
 from tests.paths import ROOT
 from tests.workflow.small_study import BIN, Study, surroundings
@@ -65,7 +64,6 @@ def test_the_next_run_of_the_study_draws_it_and_trains_nothing(tmp_path, monkeyp
 
 
 def test_the_example_of_the_documentation_works_as_it_stands(tmp_path):
-    pytest.importorskip("stable_baselines3", reason="the extra `sb3` is not installed")
     folder = tmp_path / "results"
     study = validated({"study": STUDY})
     write_study(canonical(study), folder)

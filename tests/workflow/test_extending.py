@@ -146,7 +146,6 @@ def test_another_pendulum_is_a_few_keys(tmp_path):
 
 
 def test_the_environment_of_the_page_is_what_it_says():
-    pytest.importorskip("gymnasium")
     page = (ROOT / "docs/extend/pendulum.md").read_text("utf-8")
     (program,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     told = {}

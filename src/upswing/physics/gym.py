@@ -2,13 +2,14 @@
 
 The pendulum, its starts, falls and rewards are those of the study, step for step, under the default
 readings or others that are given; and it is the thesis's pendulum, or another, given as a configuration
-gives it. Gymnasium is an extra; importing this module registers the environments, and so does
+gives it. Importing this module registers the environments, and so does
 ``gymnasium.make("upswing.physics.gym:upswing/FullControl-v0")`` by itself.
 """
 
 from collections.abc import Mapping
 from typing import Any, SupportsFloat, TypeVar
 
+import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
@@ -25,13 +26,6 @@ from upswing.study.errors import explained
 from upswing.study.physical import THESIS_TIME_STEP, PendulumOptions, StartOptions, TrackOptions
 from upswing.study.readings import Readings
 from upswing.study.task import kind_of_task
-
-try:
-    import gymnasium
-except ImportError:
-    raise ImportError(
-        "upswing.physics.gym needs Gymnasium, the extra `gymnasium`: pip install -e '.[gymnasium]'"
-    ) from None
 
 ENVIRONMENTS = {
     "upswing/Balancing-v0": "balancing",

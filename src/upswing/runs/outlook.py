@@ -25,7 +25,7 @@ OF_A_RUN = 0.03
 
 OF_A_STEP = {
     "control": 6e-8, "table": 6e-8, "decaying": 8e-8, "gated": 1.2e-7, "networks": 1.5e-7,
-    "action-input": 1.2e-6, "dqn": 6e-5,
+    "action-input": 1.2e-6, "dqn": 6e-5, "dqn-sb3": 1.6e-4,
 }  # fmt: skip
 """What a step takes, by learner [s]."""
 

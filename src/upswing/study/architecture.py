@@ -44,6 +44,9 @@ class Architecture(Strict):
     gives: ClassVar[Features] = "tile"
     """What a feature encoder gives."""
 
+    computes_with: ClassVar[tuple[str, ...]] = ()
+    """Distributions whose version may change a run, besides those that every run computes with."""
+
     learns: ClassVar[bool] = True
     """Whether there is anything to learn, and so a step size α."""
 

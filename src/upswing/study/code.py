@@ -50,8 +50,12 @@ def loaded_by_name(architecture: Architecture, kind: str) -> tuple[str, ...]:
 
 def learning(*entries: str, used: Iterable[tuple[Architecture, str]]) -> Code:
     """The code of a job that starts from ``entries`` and lets architectures learn kinds of tasks."""
-    loaded = {part for architecture, kind in used for part in loaded_by_name(architecture, kind)}
-    return Code((*entries, *sorted(loaded)), COMPUTING_PACKAGES)
+    loaded: set[str] = set()
+    packages = {*COMPUTING_PACKAGES}
+    for architecture, kind in used:
+        loaded.update(loaded_by_name(architecture, kind))
+        packages.update(architecture.computes_with)
+    return Code((*entries, *sorted(loaded)), tuple(sorted(packages)))
 
 
 def training(architecture: Architecture, kind: str) -> Code:

@@ -250,15 +250,3 @@ def test_gymnasium_finds_it_by_module_and_name():
         "import gymnasium as g; print(g.make('upswing.physics.gym:upswing/FullControl-v0').spec.id)"
     )
     assert python(script).stdout == "upswing/FullControl-v0\n"
-
-
-def test_without_gymnasium_upswing_works_and_the_environments_name_the_extra():
-    hidden = "import sys; sys.modules['gymnasium'] = None; import upswing.cli.main, upswing.runs.train, upswing.physics"
-    assert python(hidden).returncode == 0
-    failed = python(f"{hidden}.gym")
-    assert failed.returncode == 1
-    assert failed.stderr.count("Traceback") == 1
-    assert failed.stderr.splitlines()[-1] == (
-        "ImportError: upswing.physics.gym needs Gymnasium, the extra `gymnasium`: "
-        "pip install -e '.[gymnasium]'"
-    )

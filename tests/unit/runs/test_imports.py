@@ -15,6 +15,7 @@ MODULES = {
         600,
     ),
     "training a table": ("upswing.runs.train", {"numba", "rerun"}, 1_500),
+    "acting by a deep Q-network": ("upswing.agents.held", {"numba"}, 900),
     "a figure": (
         "upswing.figures.panels, upswing.figures.style, upswing.figures.success_share, upswing.runs.results",
         {"pandas", "matplotlib"},
@@ -25,7 +26,10 @@ MODULES = {
 }
 """Of each job what it starts from, the costly packages that it needs, and a generous number of modules."""
 
-COSTLY = {"pandas", "torch", "scipy.stats", "numba", "rerun", "matplotlib", "snakemake", "jinja2"}
+COSTLY = {
+    "pandas", "torch", "scipy.stats", "numba", "rerun", "matplotlib", "snakemake", "jinja2",
+    "stable_baselines3", "gymnasium",
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("job", MODULES)

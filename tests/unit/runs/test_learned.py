@@ -41,6 +41,7 @@ SPECS = {
     "another pendulum": beyond_spec(task={"pendulum": OWN, "track": {"limit": 0.5}}),
     "five networks": beyond_spec(task={"pendulum": OWN}, learner="networks", hidden=(8,)),
     "dqn": beyond_spec(learner="dqn", coding="continuous", hidden=(16,), alpha=0.001),
+    "dqn-sb3": beyond_spec(learner="dqn-sb3", coding="continuous", hidden=(16,), alpha=0.001),
 }
 
 
@@ -69,7 +70,7 @@ def test_the_frozen_evaluation_comes_out_as_it_is_stored(stored, name):
 
 
 FOLLOWED = (
-    "table", "modular table", "networks", "tilings", "dqn", "random", "another pendulum",
+    "table", "modular table", "networks", "tilings", "dqn", "dqn-sb3", "random", "another pendulum",
 )  # fmt: skip
 
 
@@ -95,7 +96,7 @@ def test_following_is_what_the_evaluation_does(stored, name):
 
 
 @pytest.mark.parametrize(
-    "name", ["table, first of equals", "networks", "tilings", "dqn", "five networks"]
+    "name", ["table, first of equals", "networks", "tilings", "dqn", "dqn-sb3", "five networks"]
 )
 def test_the_policy_is_the_action_of_the_largest_value(stored, name):
     learned, draws = loaded(stored, name), np.random.default_rng(1)
@@ -110,12 +111,9 @@ def test_the_policy_is_the_action_of_the_largest_value(stored, name):
         locate(learned.setting.encoder, *state)
         for state in zip(angle.ravel().tolist(), velocity.ravel().tolist(), strict=True)
     ]
-    np.testing.assert_allclose(
-        q.reshape(-1, actions),
-        learned.setting.learner.action_values(places),
-        rtol=1e-12,
-        atol=1e-14,
-    )
+    told = learned.setting.learner.action_values(places)
+    rtol, atol = (1e-5, 1e-4) if name == "dqn-sb3" else (1e-12, 1e-14)  # it has float32
+    np.testing.assert_allclose(q.reshape(-1, actions), told, rtol=rtol, atol=atol)
     assert learned.policy(0.1, 0.2).shape == ()
     assert learned.policy(0.1, velocity).shape == (3, 40)
 

@@ -10,7 +10,7 @@ import pytest
 from tests.paths import ROOT
 from upswing.study import jobs
 from upswing.study.architecture import architecture_of
-from upswing.study.fingerprint import fingerprint, reachable
+from upswing.study.fingerprint import COMPUTING_PACKAGES, fingerprint, reachable
 
 TABLES = architecture_of(learner="table")
 NETS = architecture_of(learner="networks", hidden=(5,))
@@ -112,6 +112,13 @@ def test_versions_of_packages_belong_to_it():
     assert fingerprint("upswing.agents.features.grid") != fingerprint(
         "upswing.agents.features.grid", packages=["numpy"]
     )
+
+
+def test_a_learner_says_what_else_it_computes_with():
+    deep = architecture_of(learner="dqn-sb3", coding="continuous", hidden=(5,))
+    others = set(COMPUTING_PACKAGES)
+    assert set(jobs.training(deep, "balancing").packages) == others | {"stable-baselines3"}
+    assert set(jobs.training(TABLES, "balancing").packages) == others
 
 
 def test_an_edited_pendulum_is_not_run_from_the_cache_of_the_old_one(package, tmp_path):

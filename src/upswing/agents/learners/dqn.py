@@ -16,12 +16,11 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from itertools import pairwise
 from math import nan, sqrt
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from pydantic import Field
 from torch import Tensor, nn
 
 from upswing.agents.features import Point
@@ -33,51 +32,11 @@ from upswing.physics.environment import NEVER, State, record, transition
 from upswing.physics.jit import compiled, with_item
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import Task
-from upswing.study import architecture
-from upswing.study.values import Count, LayerSizes, Positive, Steps
+from upswing.study.deep_q import DeepQOptions
 
 
-class Options(architecture.Architecture):
+class Options(DeepQOptions):
     """The size of the network, and how it learns."""
-
-    takes: ClassVar[tuple[architecture.Features, ...]] = ("state",)
-    hidden: LayerSizes = Field(
-        min_length=1, description="Numbers of units of its hidden layers, input side first."
-    )
-    # With 1 a run swung up too, yet in the end only from 10 of 16 starts without exploring.
-    action_repeat: Count = Field(
-        default=4, description="Number of steps that an action is held; 4 are 20 ms."
-    )
-    # That is all of a run of 200,000 steps, so that nothing of such a run is forgotten.
-    replay_capacity: Count = Field(
-        default=50_000, description="Largest number of decisions that are remembered."
-    )
-    batch_size: Count = Field(
-        default=64, description="Number of decisions that are learned from at once."
-    )
-    # A minibatch is then more than one swing.
-    learning_starts: Steps = Field(
-        default=1_000, description="Number of steps before the first update."
-    )
-    # With 16 a run takes half the time; one of three then never swung up.
-    update_interval: Count = Field(
-        default=8, description="Number of steps from one update to the next."
-    )
-    target_update_interval: Count = Field(
-        default=250,
-        description="Number of updates between two renewals of the target network; 250 are 10 s.",
-    )
-    # With 0.01 three of three runs took longer to solve full control.
-    q_unit: Positive = Field(
-        default=0.03,
-        description="The network's own unit of Q, as a share of the largest |Q| there can be: it says "
-        "which errors the Huber loss takes for small.",
-    )
-
-    def check(self) -> None:
-        """It has an algorithm of its own."""
-        if self.method != "q-learning":
-            raise ValueError("a dqn has an algorithm of its own; leave `method` out")
 
 
 class QNetwork(nn.Module):

@@ -9,7 +9,10 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-PACKAGES = ("upswing", "numpy", "numba", "torch", "pandas", "pyarrow", "rerun-sdk", "snakemake")
+PACKAGES = (
+    "upswing", "numpy", "numba", "torch", "stable-baselines3", "pandas", "pyarrow", "rerun-sdk",
+    "snakemake",
+)  # fmt: skip
 KEY = b"upswing"
 """The key of Parquet metadata under which all of ours is, as JSON."""
 
