@@ -139,7 +139,7 @@ def test_missing_groups_are_named(swept, tmp_path):
     with pytest.raises(BadInput, match="`make readings` makes them"):
         write_readings(tmp_path, sweeps, CLAIMS)
     with pytest.raises(BadInput, match="no such group; did you mean 'as-the-study'"):
-        write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi")
+        write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi", "")
     with pytest.raises(BadInput, match="`make readings` makes them"):
         write_finalists(tmp_path, STUDY, "networks", sweeps["networks"], 2)
 
@@ -158,4 +158,4 @@ def test_a_round_without_finalists_says_how_they_are_named(swept, tmp_path, text
     with pytest.raises(
         BadInput, match=f"{said}.*; `upswing finalists networks 2 {tmp_path}` makes it"
     ):
-        write_group(tmp_path, STUDY, "networks", sweep, later.name)
+        write_group(tmp_path, STUDY, "networks", sweep, later.name, "")
