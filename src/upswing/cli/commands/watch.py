@@ -139,4 +139,4 @@ def _quiet() -> None:
 
     It is read when Rerun is imported.
     """
-    os.environ.setdefault("RUST_LOG", "error,re_sdk=off,re_grpc_client=off")
+    os.environ.setdefault("RUST_LOG", "error,re_sdk=off,re_grpc_client=off,winit=error")
