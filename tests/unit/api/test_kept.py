@@ -28,7 +28,7 @@ def folder(results, tmp_path_factory):
 
 def test_its_tables_are_those_of_that_time(folder):
     first, now = upswing.open(folder, at="@1"), upswing.open(folder)
-    before, after = (one.verdicts.set_index("claim")["thresholds"] for one in (first, now))
+    before, after = (one.verdicts.set_index("claim")["threshold"] for one in (first, now))
     assert list(before[before != after].index) == ["C16"]
     pd.testing.assert_frame_equal(upswing.open(folder, at="@last").verdicts, now.verdicts)
     pd.testing.assert_frame_equal(first.cells, now.cells)
