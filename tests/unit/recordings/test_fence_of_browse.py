@@ -35,7 +35,7 @@ def test_the_page_shows_the_catalog_and_asks_this_machine_alone(browser, results
         assert shows_something(page, tmp_path)
         # The catalog was asked, across to its port, and answered.
         port = urlsplit(unquote(address.partition("url=")[2])).port
-        assert {200} == {code for place, code in answers if urlsplit(place).port == port}
+        assert 200 in {code for place, code in answers if urlsplit(place).port == port}
         asked = {urlsplit(request).hostname for request in requests} - {None}  # data: and blob:
         assert asked == {"127.0.0.1"}
         page.close()
