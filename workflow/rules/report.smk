@@ -20,5 +20,6 @@ rule report:
         f"{RESULTS}/benchmarks/report.tsv"
     params:
         code=jobs.page(FILES.shown_figures).fingerprint,
+        swept=lambda wildcards: FILES.shown_as_of(workflow.dag_settings.targets),
     shell:
         "upswing report {RESULTS:q} > {log:q} 2>&1"

@@ -109,6 +109,8 @@ def test_a_control_has_no_alpha(study):
         ({"task": "full-control", "architecture": "table"}, "no cell is that"),
         ({"architecture": "tabel"}, "architecture: tabel: no cell has it; did you mean 'table'?"),
         ({"alpha": 0.2}, "alpha: 0.2: no cell has it"),
+        ({"alpha": "half"}, "alpha: half: no cell has it; there are 0.1, 1, none"),
+        ({"task": "balancing", "alpha": [1]}, "alpha: [1]: no cell has it"),
         ({}, "cell: 4 cells are that"),
         ({"cell": TABLE, "alpha": 1}, "give an id, or task, architecture and alpha"),
     ],
