@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from tests.paths import ROOT
-from tests.workflow.small_study import BIN, Study, surroundings
+from tests.workflow.small_study import BIN, as_run, surroundings
 from upswing.analysis.aggregate import write_tables
 from upswing.analysis.doctor import delete_orphans, examine
 from upswing.runs.adopt import Asked, adopt
@@ -31,9 +31,8 @@ STUDY = {
 }
 
 
-def test_the_next_run_of_the_study_draws_it_and_trains_nothing(tmp_path, monkeypatch):
-    study = Study(tmp_path)
-    study.jobs()
+def test_the_next_run_of_the_study_draws_it_and_trains_nothing(once, tmp_path, monkeypatch):
+    study = as_run(once, tmp_path)
     monkeypatch.chdir(tmp_path)
     results = Path("results")
     page = results / "report/index.html"
