@@ -66,7 +66,7 @@ U = "src/upswing/"
 @pytest.mark.parametrize(
     ("file", "old", "new", "expected"),
     [
-        (U + "physics/pendulum.py", '"""The constants of §4.2.2."""', '"""Constants."""  # a comment', {}),
+        (U + "physics/pendulum.py", '"""The constants of §4.2.2, and', '# a comment\n    """Constants, and', {}),
         (U + "runs/loop.py", "# Observe starting state s", "# observe", {}),
         (U + "report/words.py", "UNKNOWN = ", "\n\nUNKNOWN    = ", {}),
         (U + "agents/learners/backpropagation/one_hidden.py", "STALE = -1", "STALE = -2", {TRAIN: 1, **OF_NETWORKS}),
