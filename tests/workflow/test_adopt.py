@@ -122,5 +122,5 @@ def test_the_example_of_the_documentation_works_as_it_stands(learned, tmp_path):
 
     # Trained with several seeds, and made by seed.
     (tmp_path / "ppo-7.zip").write_bytes((tmp_path / "ppo.zip").read_bytes())
-    asked = "from upswing.agents.elsewhere import *; print(Acting(find('by_seed.py:agent'), 7).action(0.3, 0.0))"
+    asked = "from upswing.agents.elsewhere import *; print(Acting(find('by_seed.py:agent'), 7, (-10, 0, 10)).action(0.3, 0.0))"
     assert run(sys.executable, "-c", asked) == "0\n"
