@@ -125,6 +125,7 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
     yield "history", subcommand("history", "write", results)
     if told["changes"]:
         yield "bound", subcommand("bound", results, compiled=True)
+        yield "settling", subcommand("settling", results, compiled=True)
         yield "changes", subcommand("changes", results)
     if told["search"]:
         yield "shortest", subcommand("shortest", str(told["study"]), "--results", results)
@@ -193,6 +194,7 @@ def _followed_briefly(declared: Callable[..., type]) -> Callable[..., type]:
 
 SMALL = {
     "upswing.study.declared": {"declared": lambda module: _followed_briefly(module.declared)},
+    "upswing.optimal.settling": {"GRID": lambda module: module.Grid(36, 21)},
     "upswing.optimal.bound": {"GRIDS": lambda module: (module.Grid(36, 21), module.Grid(72, 81))},
     "upswing.optimal.tile_rows": {
         "BUDGET": 1,

@@ -13,14 +13,17 @@ from tests.workflow.small_study import Study
 from upswing.analysis.ablation import EVERY_TIME
 from upswing.analysis.search import chosen, upright_shares
 from upswing.optimal.rows import Row
+from upswing.optimal.settling import settle
+from upswing.optimal.state_grid import Grid
 from upswing.physics.environment import empty_trajectory
+from upswing.physics.pendulum import Pendulum
 from upswing.report.chapter import chapter
 from upswing.report.page import write_report
 from upswing.runs.files.tables import write_table
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix, canonical_search, cells_of
-from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SHORTEST
+from upswing.study.paths import BOUND, CHANGES, CHOSEN, MAPS, SETTLING, SHORTEST
 from upswing.study.readings import Readings
 
 pytestmark = pytest.mark.heavy  # it runs studies with sweeps, or beyond the thesis
@@ -89,6 +92,7 @@ def made_up_bound(folder):
     }
     actions = {f"action_{discount}": np.arange(len(angles)) % 3 for discount in (0.7, 0.97)}
     write_table(folder / MAPS, pd.DataFrame({**maps, **actions}))
+    write_table(folder / SETTLING, pd.DataFrame(settle(Pendulum(), Grid(24, 21), 0.97)))
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +108,7 @@ def study(tmp_path_factory):
 def test_every_part_of_the_chapter_has_its_job(study):
     assert study.ran == {
         "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
-        "changes": 1, "shortest": 1, "figure": 5, "viewer": 1, "report": 1,
+        "changes": 1, "shortest": 1, "figure": 6, "viewer": 1, "report": 1,
     }  # fmt: skip
     assert study.jobs() == {}
 

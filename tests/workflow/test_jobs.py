@@ -29,6 +29,7 @@ CODE_OF_RULE = {
     "viewer": jobs.VIEWER,
     "report": jobs.page(FIGURES),
     "bound": jobs.bound(),
+    "settling": jobs.SETTLING,
     "tiles": jobs.tiles(),
     "finalists": jobs.FINALISTS,
 }
@@ -109,7 +110,7 @@ def test_every_kind_of_job_was_run(ran):
     expected = {"study", "train", "tables", "verdicts", "figure", "comparison", "viewer", "report"}
     expected |= {"history"}
     of_the_thesis = {"sweep", "readings", "finalists", "tiles"}
-    expected |= {"bound", "changes", "shortest"} if study.search else of_the_thesis
+    expected |= {"bound", "settling", "changes", "shortest"} if study.search else of_the_thesis
     assert rules == expected
     assert {f"train {cell}" for cell in Matrix(study).cells} <= imported.keys()
     assert {f"sweep {name}" for name in sweeps} <= imported.keys()
@@ -129,7 +130,7 @@ def test_a_module_taken_out_of_the_answer_is_noticed(ran):
     """What no ``import`` statement shows is in the answer only because it is named there."""
     study, sweeps, imported = ran
     for job, modules in imported.items():
-        if job.partition(" ")[0] not in ("train", "sweep", "shortest", "bound"):
+        if job.partition(" ")[0] not in ("train", "sweep", "shortest", "bound", "settling"):
             continue
         code = code_of(job, study, sweeps)
         for left_out in code.entries[1:]:

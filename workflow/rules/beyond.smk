@@ -18,6 +18,22 @@ rule bound:
         "upswing bound {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
 
 
+rule settling:
+    input:
+        no_file,
+    output:
+        f"{RESULTS}/{SETTLING}",
+    log:
+        f"{RESULTS}/logs/settling.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/settling.tsv"
+    params:
+        pendulum=lambda wildcards: pendulum_of_bound(STUDY).model_dump_json(),
+        code=jobs.SETTLING.fingerprint,
+    shell:
+        "upswing settling {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+
+
 rule changes:
     input:
         f"{RESULTS}/study.json",

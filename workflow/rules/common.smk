@@ -23,6 +23,7 @@ from upswing.study.paths import (
     CHANGES,
     CHOSEN,
     MAPS,
+    SETTLING,
     SHORTEST,
     TILES,
     VIEWER_PAGE,

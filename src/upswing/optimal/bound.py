@@ -34,7 +34,7 @@ def write_bound(results: Path, study: Study | None = None) -> None:
 
     The pendulum is that of the study's first task of full control, or the thesis's.
     """
-    body = body_of(pendulum_of_bound(study)) if study else Pendulum()
+    body = body_of_study(study)
     rows: list[Row] = [*exact(body)]
     solved: Solved | None = None
     for grid in grids_for(body):
@@ -45,6 +45,11 @@ def write_bound(results: Path, study: Study | None = None) -> None:
     write_table(results / BOUND, pd.DataFrame(rows).astype({"discount": "float64"}))
     write_table(results / MAPS, maps(solved))
     seal(results, "bound", [results / BOUND, results / MAPS])
+
+
+def body_of_study(study: Study | None) -> Pendulum:
+    """The pendulum of a study's first task of full control, or the thesis's."""
+    return body_of(pendulum_of_bound(study)) if study else Pendulum()
 
 
 def grids_for(body: Pendulum) -> list[Grid]:

@@ -10,4 +10,9 @@ OF_THE_BOUND = {
 OF_THE_MAPS = {
     "angle": "number", "angular_velocity": "number", "time_to_upright": "number", "keepable": "truth",
 }  # fmt: skip
+OF_SETTLING = {
+    "method": "text", "discount": "number", "backups": "whole", "improvements": "whole",
+    "error": "number", "worse": "number",
+}  # fmt: skip
+SETTLING_REMEDY = "`upswing settling` makes it"
 REMEDY = "`upswing bound` makes it"

@@ -1,5 +1,6 @@
 """Value iteration: the best discounted return on full control, and the policy that is greedy for it."""
 
+from collections.abc import Callable
 from math import inf
 from typing import NamedTuple
 
@@ -45,7 +46,11 @@ def _act(policy: Optimal, body: Pendulum, angle: float, angular_velocity: float)
 
 
 def optimal_values(
-    grid: Grid, ways: Successors, discount: float, begun: Array | None = None
+    grid: Grid,
+    ways: Successors,
+    discount: float,
+    begun: Array | None = None,
+    swept: Callable[[Array], None] = lambda _: None,
 ) -> Array:
     """V* of every point (eq. 8), shape (points,), to ``TOLERANCE`` [rad²]; never reset.
 
@@ -58,6 +63,7 @@ def optimal_values(
         ways: where the actions lead from them.
         discount: γ, below 1.
         begun: values to begin with; the better the faster.
+        swept: is given the values after every sweep; they change with the next.
     """
     values = np.zeros(len(ways.corner)) if begun is None else begun.copy()
     better, rewards = np.zeros_like(values), -(ways.angle**2)
@@ -67,7 +73,9 @@ def optimal_values(
         values, better = better, values
         if further * (high - low) <= 2 * TOLERANCE:
             found: Array = values + further * (low + high) / 2
+            swept(found)
             return found
+        swept(values)
 
 
 @compiled

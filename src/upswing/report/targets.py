@@ -28,6 +28,7 @@ from upswing.study.paths import (
     PAGE,
     RUNS,
     RUNS_CSV,
+    SETTLING,
     SHORTEST,
     STUDY,
     TILES,
@@ -43,7 +44,9 @@ PICTURE = ("svg", "png", "json")
 
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
-CHAPTER = (CHANGES, BOUND, CHOSEN, figure("bound", "svg"), figure("changes", "svg"))
+CHAPTER = (
+    CHANGES, BOUND, CHOSEN, *(figure(name, "svg") for name in ("bound", "settling", "changes")),
+)  # fmt: skip
 """What the page shows of the chapter beyond the thesis, once that has been run."""
 
 TEMPLATES = (
@@ -97,7 +100,7 @@ class Targets(TargetsOfSweeps):
     def beyond(self) -> list[str]:
         """The tables of a study of changes; none of another."""
         search = (SHORTEST, CHOSEN) if self.study.search else ()
-        return self._below(BOUND, MAPS, CHANGES, *search) if self.changes else []
+        return self._below(BOUND, MAPS, SETTLING, CHANGES, *search) if self.changes else []
 
     @cached_property
     def page(self) -> list[str]:

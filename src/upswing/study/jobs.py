@@ -12,6 +12,7 @@ from upswing.study.architecture import architecture_of
 from upswing.study.code import Code, learning
 from upswing.study.code import training as training
 from upswing.study.config import Study
+from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.loading import module_of
 from upswing.study.matrix import Matrix, searched
 
@@ -39,6 +40,9 @@ def bound() -> Code:
     """The code of the bound; it follows policies on both tasks, and trains tables to begin with."""
     table = architecture_of(learner="table")
     return learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
+
+
+SETTLING = Code(("upswing.optimal.settling",), COMPUTING_PACKAGES)
 
 
 def tiles() -> Code:

@@ -21,6 +21,7 @@ ROBUST = "tables/robust.parquet"
 
 BOUND = "tables/bound.parquet"
 MAPS = "tables/bound_maps.parquet"
+SETTLING = "tables/settling.parquet"
 CHANGES = "tables/changes.parquet"
 SHORTEST = "tables/shortest.parquet"
 CHOSEN = "tables/chosen.parquet"

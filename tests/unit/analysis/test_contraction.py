@@ -29,7 +29,7 @@ def test_the_largest_error_shrinks_by_the_discount_in_every_full_interval(states
     following = rng.integers(states, size=(states, 3))
     rewards = rng.normal(size=(states, 3))
     best = value_iteration(following, rewards, discount)
-    table = Table(rng.normal(size=(1, states, 3)))
+    table = Table(rng.normal(size=(1, states, 3)), (0.0, 0.0, 0.0))
     error = np.abs(table.q[0] - best).max()
     for _ in range(30):
         for visit in rng.permutation(states * 3):  # a full interval, in any order
@@ -45,7 +45,7 @@ def test_the_largest_error_shrinks_by_the_discount_in_every_full_interval(states
 
 
 def test_a_single_update_is_equation_12():
-    table = Table(np.array([[[1.0, 2.0, 3.0], [5.0, 4.0, 0.0]]]))
+    table = Table(np.array([[[1.0, 2.0, 3.0], [5.0, 4.0, 0.0]]]), (0.0, 0.0, 0.0))
     step_size, reward, discount = 0.25, -1.0, 0.7
     td_error = reward + discount * max(values(table, Place(0, (1,)))) - table.q[0, 0, 1]
     update(table, Place(0, (0,)), 1, step_size * td_error)

@@ -145,12 +145,27 @@ def report(
 def bound(positional: Positional = None, results: Named = None, study: AskedStudy = "") -> None:
     """Say by dynamic programming how good anything can be (tables/bound.parquet)."""
     from upswing.optimal.bound import write_bound
+
+    folder = results_folder(results, positional)
+    write_bound(folder, _asked_or_kept(study, folder))
+
+
+@panel.subcommand("settling", cls=Job)
+def settling(positional: Positional = None, results: Named = None, study: AskedStudy = "") -> None:
+    """Watch value and policy iteration settle, sweep by sweep (tables/settling.parquet)."""
+    from upswing.optimal.bound import body_of_study
+    from upswing.optimal.settling import write_settling
+
+    folder = results_folder(results, positional)
+    write_settling(folder, body_of_study(_asked_or_kept(study, folder)))
+
+
+def _asked_or_kept(text: str, folder: Path) -> "Study | None":
+    """The study that is given, or that of the folder; None where there is neither."""
     from upswing.runs.study_file import read_study
     from upswing.study.paths import STUDY
 
-    folder = results_folder(results, positional)
-    there = (folder / STUDY).exists()
-    write_bound(folder, asked_study(study) or (read_study(folder) if there else None))
+    return asked_study(text) or (read_study(folder) if (folder / STUDY).exists() else None)
 
 
 @panel.subcommand("tiles", cls=Job)
