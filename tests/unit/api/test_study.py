@@ -6,23 +6,12 @@ import pytest
 
 import upswing
 from tests.made_up import ONE, OTHER, N, made_up
+from tests.unit.api.said import says
 from upswing.analysis import statistics
 from upswing.runs.files.tables import read_cells
 from upswing.study.paths import RUNS, VERDICTS
 
 TABLE = "balancing/table/alpha-1"
-
-
-@pytest.fixture(scope="module")
-def study(results):
-    return upswing.open(results.folder)
-
-
-def says(call):
-    with pytest.raises(upswing.BadInput) as raised:
-        call()
-    (problem,) = raised.value.problems
-    return problem
 
 
 # The folder.
