@@ -62,7 +62,7 @@ class Study:
         return subprocess.run(
             [
                 str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
+                "--configfile", "config/small.yaml", "--printshellcmds", *arguments,
             ],
             cwd=self.folder,
             env=surroundings(),
@@ -95,7 +95,7 @@ class Edited(Study):
         return subprocess.run(
             [
                 str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
+                "--configfile", "config/small.yaml", "--printshellcmds", *arguments,
             ],
             cwd=self.folder, env=environment, capture_output=True, text=True, check=False,
         )  # fmt: skip

@@ -6,16 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from upswing.cli.options import Named, results_folder
+from upswing.cli.options import CONFIG, Named, results_folder
 from upswing.cli.panel import Panel
 
 if TYPE_CHECKING:
     from upswing.study.config import Study
 
 panel = Panel("Look")
-
-CONFIG = Path("config/config.yaml")
-"""The study where there are no results to say one."""
 
 Web = Annotated[bool, typer.Option("--web", help="Serve a page, where there is no display.")]
 Port = Annotated[int, typer.Option(help="Of the page's stream.")]
@@ -149,7 +146,8 @@ def _study(results: Path, config: Path | None) -> "Study":
     from upswing.runs.study_file import read_study
     from upswing.study.config import load
     from upswing.study.paths import STUDY
+    from upswing.study.project_files import along
 
     if config is None and (results / STUDY).is_file():
         return read_study(results)
-    return load(config or CONFIG)
+    return load(config or along(CONFIG))
