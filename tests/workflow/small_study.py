@@ -65,7 +65,8 @@ class Study:
     def snakemake(self, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
         """Snakemake on the study, on two cores."""
         words = ["--cores", "2", "--profile", "workflow/profiles/default"]
-        words += ["--configfile", "config/small.yaml", *arguments]
+        words += ["--configfile", "config/small.yaml", "--printshellcmds"]
+        words += arguments
         return snakemake(words, self.folder, self.surroundings(**more))
 
     def surroundings(self) -> dict[str, str]:

@@ -112,8 +112,6 @@ def test_with_damaged_records_a_changed_epsilon_is_trained(study, damage):
 def test_with_damaged_records_nothing_is_trained_that_is_as_asked(study, damage):
     damage(study)
     planned = study.jobs("--dry-run")
-    if damage is take_another_jobs:  # Snakemake has records, of other params than are asked
-        assert planned.pop(TRAIN) == CELLS
     assert TRAIN not in planned
     assert set(planned) <= {*FOLLOWS, "study"}
 
@@ -173,3 +171,21 @@ def test_a_run_repeated_by_hand_makes_nothing_run(study):
     spec = read_metadata(study.folder / WINDOWS)["spec"]
     train(parse(spec), study.folder / "results")
     assert TRAIN not in study.jobs("--dry-run")
+
+
+def test_fewer_seeds_on_the_command_line_train_nothing_and_leave_nothing_to_train(study):
+    planned = study.jobs("--dry-run", "--config", "seeds=1")
+    assert not [rule for rule in planned if rule.startswith("train")]
+    assert set(planned) == {*FOLLOWS, "study"}
+    assert study.jobs("--dry-run") == {}
+
+
+def test_more_seeds_on_the_command_line_train_those_that_are_missing(study):
+    planned = study.jobs("--dry-run", "--config", "seeds=3")
+    trained = {rule: jobs for rule, jobs in planned.items() if rule.startswith("train")}
+    assert trained == {"train_seeds_2_to_2": CELLS}
+
+
+def test_fewer_seeds_of_another_study_are_trained(study):
+    study.write({**SMALL, "seeds": 2, "epsilon": 0.02})
+    assert study.jobs("--dry-run", "--config", "seeds=1")["train_seeds_0_to_0"] == CELLS

@@ -125,9 +125,11 @@ def test_every_rule_has_a_log_and_a_benchmark_and_calls_one_verb():
             for part in ("log", "benchmark", "shell"):
                 found = re.findall(rf"^ +{part}:", body, re.MULTILINE)
                 assert len(found) == 1, f"{path.name}: {part}"
-            assert len(re.findall(r'"upswing \w+', body)) == 1, path.name
+            assert len(re.findall(r'"\{params.upswing:q\} \w+', body)) == 1, path.name
             assert not re.search(r"\b(run|script):", body), path.name
-    assert rules == 16
+            for need in ("mem_mb", "runtime"):
+                assert len(re.findall(rf"^ +{need}=", body, re.MULTILINE)) == 1, path.name
+    assert rules == 17
 
 
 def test_logs_and_benchmarks_are_written(study):

@@ -13,13 +13,17 @@ rule sweep:
         f"{RESULTS}/logs/sweep/{{sweep}}/{{group}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/sweep/{{sweep}}/{{group}}.tsv"
+    resources:
+        mem_mb=memory("sweep"),
+        runtime=minutes("sweep"),
     params:
+        **TOLD,
         content=lambda wildcards: FILES.content_of_sweep(
             f"{wildcards.sweep}/{wildcards.group}"
         ),
         code=lambda wildcards: jobs.sweep(SWEEPS[wildcards.sweep], STUDY).fingerprint,
     shell:
-        "upswing sweep {wildcards.sweep:q} {wildcards.group:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} sweep {wildcards.sweep:q} {wildcards.group:q} {params.results:q} --study {params.asked:q} --sweeps {params.sweeps_file:q} > {log:q} 2>&1"
 
 
 rule finalists:
@@ -32,11 +36,16 @@ rule finalists:
         f"{RESULTS}/logs/finalists/{{sweep}}/round-{{number}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/finalists/{{sweep}}/round-{{number}}.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("finalists"),
+        runtime=minutes("finalists"),
     params:
+        **TOLD,
         reports=lambda wildcards: FILES.reports_of_sweep(wildcards.sweep),
         code=jobs.FINALISTS.fingerprint,
     shell:
-        "upswing finalists {wildcards.sweep:q} {wildcards.number:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} finalists {wildcards.sweep:q} {wildcards.number:q} {params.results:q} --study {params.asked:q} --sweeps {params.sweeps_file:q} > {log:q} 2>&1"
 
 
 rule readings:
@@ -56,9 +65,13 @@ rule readings:
         f"{RESULTS}/logs/readings.log",
     benchmark:
         f"{RESULTS}/benchmarks/readings.tsv"
+    resources:
+        mem_mb=memory("readings"),
+        runtime=minutes("readings"),
     params:
+        **TOLD,
         claims=lambda wildcards: CLAIMS_TEXT,
         swept=lambda wildcards: FILES.content_of_readings,
         code=jobs.READINGS.fingerprint,
     shell:
-        "upswing readings {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} readings {params.results:q} --study {params.asked:q} --sweeps {params.sweeps_file:q} --claims {params.claims_file:q} > {log:q} 2>&1"

@@ -20,6 +20,7 @@ from upswing.study.paths import (
     finalists_of_sweep,
     group_of_sweep,
 )
+from upswing.study.project_files import TEMPLATES
 from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 ASKING_FOR_READINGS = ("readings", "with_readings")
@@ -39,6 +40,7 @@ class TargetsOfSweeps:
     study: Study
     claims: Mapping[str, Claim]
     sweeps: Mapping[str, Sweep]
+    templates: Path = TEMPLATES
 
     @cached_property
     def matrix(self) -> Matrix:
@@ -106,7 +108,7 @@ class TargetsOfSweeps:
         (own,) = self._below(ROBUST)
         if (coming and own in self.readings) or Path(own).exists():
             return [own]
-        shipped = Path("report", SHIPPED)
+        shipped = self.templates / SHIPPED
         return [str(shipped)] if shipped.exists() else []
 
     def content_of_sweep(self, job: str) -> str:

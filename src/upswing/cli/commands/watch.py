@@ -6,13 +6,10 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import Named, results_folder
+from upswing.cli.options import CONFIG, Named, results_folder
 from upswing.cli.panel import Panel
 
 panel = Panel("Look")
-
-CONFIG = Path("config/config.yaml")
-"""The study where there are no results to say one."""
 
 Web = Annotated[bool, typer.Option("--web", help="Serve a page, where there is no display.")]
 Port = Annotated[int, typer.Option(help="Of the page's stream.")]
@@ -62,11 +59,12 @@ def watch(
     """Watch a run learn, in the viewer: bit for bit the run of the study."""
     from upswing.recordings.watched import watched_run
     from upswing.study.asked_run import Asked
+    from upswing.study.project_files import along
 
     _quiet()
     folder = results_folder(results)
     asked = Asked(task, architecture, alpha, seed, steps)
-    spec = watched_run(folder, config, CONFIG, run, asked)
+    spec = watched_run(folder, config, along(CONFIG), run, asked)
     from upswing.recordings.looking import page, window
     from upswing.recordings.pace import parse_speed
     from upswing.recordings.watch import watch_in, watch_into
