@@ -7,13 +7,21 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 CORES ?= all
-# --logger rich: a bar for every rule in a terminal.
-SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default --logger rich
+# A target is about the study in CONFIG, and its results in RESULTS, or where CONFIG says.
+CONFIG ?= config/config.yaml
+# A bar for every rule in a terminal; elsewhere Snakemake's own lines, of which the rules leave out most.
+LOGGER := $(shell test -t 2 && echo --logger rich)
+SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default $(LOGGER)
 INSTALLED := $(VENV)/.installed
 # A study (1), checked first: Snakemake would read what is not YAML, or surprising YAML, in words of its own. That
 # says what is to come, too; then its targets (2) are made, and the end says where the page is (3: where in it).
-run = results=$$($(BIN)/upswing check "$(1)" --begin) && $(SNAKEMAKE) --configfile "$(1)"$(if $(2), -- $(2)) && $(call end,$(3))
+run = $(call begin,$(1)) && $(SNAKEMAKE) $(call of,$(1))$(if $(2), -- $(2)) && $(call end,$(3))
+begin = results=$$($(BIN)/upswing check "$(1)" --begin$(if $(RESULTS), --results "$(RESULTS)"))
+of = --configfile "$(1)"$(if $(RESULTS), --config results="$(RESULTS)")
 end = $(if $(value NOTE),$(BIN)/upswing history noted "$$results" && )echo "The report is at $$results/report/index.html$(1)"
+
+# The folder of results that a target is about, for the shell.
+folder = results=$(if $(RESULTS),"$(RESULTS)",$(if $(filter file,$(origin CONFIG)),results,$$($(BIN)/upswing check "$(CONFIG)" --folder)))
 
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
@@ -51,19 +59,19 @@ $(VENV)/.locked: requirements.lock requirements-slurm.lock | writable
 
 .PHONY: reproduce
 reproduce: install ## Run the whole study: figures, tables, recordings, report
-	@$(call run,config/config.yaml)
+	@$(call run,$(CONFIG))
 
 .PHONY: slurm
 slurm: install ## Run the whole study on a Slurm cluster (see workflow/README.md)
-	@results=$$($(BIN)/upswing check config/config.yaml --begin) && PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH="$(CURDIR)/$(VENV)/slurm" $(BIN)/snakemake --profile workflow/profiles/slurm --configfile config/config.yaml && $(call end)
+	@$(call begin,$(CONFIG)) && PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH="$(CURDIR)/$(VENV)/slurm" $(BIN)/snakemake --profile workflow/profiles/slurm $(LOGGER) $(call of,$(CONFIG)) && $(call end)
 
 .PHONY: unlock
 unlock: install ## After a kill: let the next run begin, when no other is at work
-	@$(SNAKEMAKE) --configfile config/config.yaml --unlock
+	@$(SNAKEMAKE) $(call of,$(CONFIG)) --unlock
 
 .PHONY: study
 study: install ## Run another study: make study CONFIG=config/mine.yaml NOTE="why" (a note goes with every study)
-	@test -n "$(CONFIG)" || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
+	@test "$(origin CONFIG)" != file || { echo "Say which: make study CONFIG=config/mine.yaml" >&2; exit 1; }
 	@$(call run,$(CONFIG))
 
 .PHONY: smoke
@@ -72,38 +80,37 @@ smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
 
 .PHONY: readings
 readings: install ## Judge every claim under other readings too (40 minutes on 2 cores; goes on where it stopped)
-	@$(call run,config/config.yaml,with_readings,#robust)
+	@$(call run,$(CONFIG),with_readings,#robust)
 
 # Two calls: a call of Snakemake has one configuration, and the page that shows the chapter is of another study.
 .PHONY: beyond
 beyond: install ## Run what goes beyond the thesis (forty minutes on 2 cores), into results/beyond
 	@$(call run,config/beyond.yaml)
-	@if test -e results/report/index.html; then $(SNAKEMAKE) --configfile config/config.yaml; fi
-	@echo "The chapter is at results/beyond/report/index.html"
+	@page=$$($(BIN)/upswing check "$(CONFIG)" --folder)/report/index.html && if test -e "$$page"; then $(SNAKEMAKE) --configfile "$(CONFIG)"; fi
 
 .PHONY: bench
 bench: install ## Measure a step against C, numpy and torch, and what the whole study took
-	@$(BIN)/python -m tests.benchmarks.run results
+	@$(folder) && $(BIN)/python -m tests.benchmarks.run "$$results"
 
 .PHONY: bench-edits
 bench-edits: install ## Measure what an edit costs until the page is right again (ten minutes)
-	@$(BIN)/python -m tests.benchmarks.edits results
+	@$(folder) && $(BIN)/python -m tests.benchmarks.edits "$$results"
 
 .PHONY: bench-growth
 bench-growth: install ## Measure how time and size grow with seeds and steps (a quarter of an hour)
-	@$(BIN)/python -m tests.benchmarks.growth results
+	@$(folder) && $(BIN)/python -m tests.benchmarks.growth "$$results"
 
 .PHONY: browse
 browse: install ## Browse all recordings; make browse FILTER="task=balancing seed=0..4"; WEB=1 as a page
-	@$(BIN)/upswing browse $(if $(WEB),--web) $(FILTER)
+	@$(folder) && $(BIN)/upswing browse --results "$$results" $(if $(WEB),--web) $(FILTER)
 
 .PHONY: doctor
 doctor: install ## Check that results are whole; says what to delete where they are not
-	@$(BIN)/upswing doctor results
+	@$(folder) && $(BIN)/upswing doctor "$$results"
 
 .PHONY: clean-orphans
-clean-orphans: install ## Delete runs that the study, as it last ran, no longer has
-	@$(BIN)/upswing clean-orphans results
+clean-orphans: install ## List runs that the study, as it last ran, no longer has; YES=1 deletes them
+	@$(folder) && $(BIN)/upswing clean-orphans "$$results" $(if $(YES),--yes)
 
 .PHONY: test
 test: install ## Run the tests
@@ -151,31 +158,29 @@ docs: install ## Build the documentation into build/docs; it reads without a net
 
 .PHONY: screenshots
 screenshots: install ## Renew the documentation's pictures of the recordings (needs a Vulkan driver: Mesa's)
-	@$(BIN)/upswing screenshots results --into docs/pictures
+	@$(folder) && $(BIN)/upswing screenshots "$$results" --into docs/pictures
 
 .PHONY: exploratory
 exploratory: install ## The claims on the seeds 0 to 29, which were seen before, into results/exploratory; shown beside the others
 	@mkdir -p build
-	@sed 's/{first: 10000, count: [0-9]*}/{first: 0, count: 30}/; s#^results: results#results: results/exploratory#' config/config.yaml > build/exploratory.yaml
-	@$(call run,build/exploratory.yaml)
-	@$(BIN)/upswing exploratory results/exploratory
+	@sed 's/{first: 10000, count: [0-9]*}/{first: 0, count: 30}/; s#^results: results#results: results/exploratory#' "$(CONFIG)" > build/exploratory.yaml
+	@$(call run,build/exploratory.yaml) && $(BIN)/upswing exploratory "$$results"
 
 .PHONY: readme
 readme: install ## Renew what README and documentation show of the results: verdicts, pictures, deviations
-	@$(BIN)/upswing readme results
+	@$(folder) && $(BIN)/upswing readme "$$results"
 
 .PHONY: site
 site: install ## Write the report and its recordings as a folder for any static host, build/site
-	@$(BIN)/upswing site build/site
+	@$(folder) && $(BIN)/upswing site build/site --results "$$results"
 
 .PHONY: notebook
 notebook: install ## Run the documentation's notebook on results, and store what it says
-	@$(BIN)/python -m tests.notebook results
+	@$(folder) && $(BIN)/python -m tests.notebook "$$results"
 
 .PHONY: snakemake-report
 snakemake-report: install ## Snakemake's own report: every output with its rule, code and time
-	@$(SNAKEMAKE) --configfile config/config.yaml --report results/report/snakemake.html
-	@echo "Snakemake's report is at results/report/snakemake.html"
+	@$(folder) && page="$$results/report/snakemake.html" && $(SNAKEMAKE) $(call of,$(CONFIG)) --report "$$page" && echo "Snakemake's report is at $$page"
 
 .PHONY: lock
 lock: ## Renew requirements.lock from pyproject.toml
@@ -191,9 +196,9 @@ lock: ## Renew requirements.lock from pyproject.toml
 
 .PHONY: clean
 clean: ## Remove results and what Snakemake remembers of them; what was found before, the history, stays
+	@$(folder) && test "$$results" = results || test -e "$$results/study.json" || { echo "upswing: $$results: is not the results of a study" >&2; exit 1; }
 	@# A history and its checksums are below a folder of this name; a task may be called so, too.
-	find results/ -mindepth 1 -not -type d \( -path '*/runs/*' -o -path '*/adopted/*' -o -path '*/benchmarks/*' -o -path '*/logs/*' \
+	$(folder) && find "$$results/" -mindepth 1 -not -type d \( -path '*/runs/*' -o -path '*/adopted/*' -o -path '*/benchmarks/*' -o -path '*/logs/*' \
 		-o -not -path '*/history/*' \) -delete
-	find results/ -mindepth 1 -type d -empty -delete
-	rm -rf .snakemake
-	git checkout --quiet -- results
+	$(folder) && find "$$results/" -mindepth 1 -type d -empty -delete
+	$(folder) && if test "$$results" = results; then rm -rf .snakemake; git checkout --quiet -- results; fi

@@ -11,6 +11,7 @@ from hypothesis import settings
 from tests.helpers import ARCHITECTURES
 from tests.leftovers import _nothing_left_running  # noqa: F401  a fixture of every session
 from tests.paths import ROOT
+from tests.shared import copied
 from upswing.analysis.aggregate import write_tables
 from upswing.analysis.verdicts import write_verdicts
 from upswing.runs.results import Results
@@ -45,19 +46,20 @@ STUDY = {
 }
 
 
-@pytest.fixture(scope="session")
-def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
-    """A small study, run and judged."""
-    folder = tmp_path_factory.mktemp("results")
+def _small_results(folder: Path) -> None:
     study = validated({"study": STUDY})
     matrix = Matrix(study)
     write_study(canonical(study), folder)
     for spec in matrix.cells.values():
         train(spec, folder)
     write_tables(folder, matrix)
-    results = Results(folder)
-    write_verdicts(results, load_claims(Path("config/claims.yaml")), {})
-    return results
+    write_verdicts(Results(folder), load_claims(Path("config/claims.yaml")), {})
+
+
+@pytest.fixture(scope="session")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    """A small study, run and judged: each worker has a copy, which gets whatever is made of it."""
+    return Results(copied(tmp_path_factory, "results", _small_results))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -1,17 +1,18 @@
 """A small study, and a checkout of the workflow in a folder of its own to run it in."""
 
+import json
 import os
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
+from typing import Self
 
 import yaml
 
 from tests.paths import ROOT
+from tests.workflow.warm import BIN, snakemake
 
-BIN = Path(sys.executable).parent
 KEPT = ("Snakefile", "workflow", "report", "config")
 SMALL = {
     "results": "results",
@@ -36,6 +37,9 @@ SMALL = {
 TARGETS = ("all", "with_readings")
 FIGURES_OF_SMALL = 6  # 5, 7 and 8 have all their cells, and there are three of ours
 
+BEING_WRITTEN = shutil.ignore_patterns("*.pyc.*")
+"""Python's own files that another process is about to rename."""
+
 
 def surroundings() -> dict[str, str]:
     """The environment of a study: our programs first, and sources are compiled once, not by every job."""
@@ -58,18 +62,21 @@ class Study:
         text = content if isinstance(content, str) else yaml.safe_dump(content)
         (self.folder / "config/small.yaml").write_text(text, "utf-8")
 
-    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [
-                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
-            ],
-            cwd=self.folder,
-            env=surroundings(),
-            capture_output=True,
-            text=True,
-            check=False,
-        )  # fmt: skip
+    def snakemake(self, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
+        """Snakemake on the study, on two cores."""
+        words = ["--cores", "2", "--profile", "workflow/profiles/default"]
+        words += ["--configfile", "config/small.yaml", "--printshellcmds"]
+        words += arguments
+        return snakemake(words, self.folder, self.surroundings(**more))
+
+    def surroundings(self) -> dict[str, str]:
+        return surroundings()
+
+    def copied(self, folder: Path) -> Self:
+        """A copy of the study as it is, to change."""
+        copy = object.__new__(type(self))
+        copy.folder = Path(shutil.copytree(self.folder, folder, ignore=BEING_WRITTEN))
+        return copy
 
     def jobs(self, *arguments: str) -> dict[str, int]:
         """Run the study and count the jobs that ran, by rule."""
@@ -82,23 +89,34 @@ class Study:
         return {rule: count for rule, count in ran.items() if rule not in TARGETS}
 
 
+RAN = "ran.json"
+
+
+def run_once(folder: Path) -> None:
+    """Run the small study in a folder, and note what ran."""
+    ran = Study(folder).jobs()
+    (folder / RAN).write_text(json.dumps(ran), "utf-8")
+
+
+def as_run(once: Path, folder: Path, kind: type[Study] = Study) -> Study:
+    """The small study in a folder of its own, as it was run ``once``."""
+    study = kind(folder)
+    for name in ("results", ".snakemake"):
+        shutil.copytree(once / name, folder / name)
+    return study
+
+
 class Edited(Study):
     """A study with a copy of the package, which it runs and a test may edit."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(folder)
-        shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__"))
+        # With what Python has compiled of it, which holds as long as a file's time is the same.
+        shutil.copytree(ROOT / "src", folder / "src", ignore=BEING_WRITTEN)
         self.write({**SMALL, "seeds": 2})
 
-    def snakemake(self, *arguments, versions=""):
-        environment = {**surroundings(), "PYTHONPATH": f"{versions}{self.folder / 'src'}"}
-        return subprocess.run(
-            [
-                str(BIN / "snakemake"), "--cores", "2", "--profile", "workflow/profiles/default",
-                "--configfile", "config/small.yaml", *arguments,
-            ],
-            cwd=self.folder, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
+    def surroundings(self, versions="") -> dict[str, str]:
+        return {**surroundings(), "PYTHONPATH": f"{versions}{self.folder / 'src'}"}
 
     def plan(self, **more):
         """The jobs that would run, by rule, without running them."""

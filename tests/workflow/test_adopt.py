@@ -7,9 +7,10 @@ import sys
 from pathlib import Path
 
 import pandas as pd
+import pytest
 
 from tests.paths import ROOT
-from tests.workflow.small_study import BIN, Study, surroundings
+from tests.workflow.small_study import BIN, as_run, surroundings
 from upswing.analysis.aggregate import write_tables
 from upswing.analysis.doctor import delete_orphans, examine
 from upswing.runs.adopt import Asked, adopt
@@ -30,9 +31,8 @@ STUDY = {
 }
 
 
-def test_the_next_run_of_the_study_draws_it_and_trains_nothing(tmp_path, monkeypatch):
-    study = Study(tmp_path)
-    study.jobs()
+def test_the_next_run_of_the_study_draws_it_and_trains_nothing(once, tmp_path, monkeypatch):
+    study = as_run(once, tmp_path)
     monkeypatch.chdir(tmp_path)
     results = Path("results")
     page = results / "report/index.html"
@@ -63,7 +63,21 @@ def test_the_next_run_of_the_study_draws_it_and_trains_nothing(tmp_path, monkeyp
     assert examine(results, tmp_path / "config/claims.yaml").findings == []
 
 
-def test_the_example_of_the_documentation_works_as_it_stands(tmp_path):
+STAND_IN = """
+class PPO:
+    @classmethod
+    def load(cls, path, device):
+        assert open(path).read() == "learned"
+        return cls()
+
+    def predict(self, observation, deterministic):
+        return (0 if observation[1] + 0.2 * observation[2] > 0 else 2), None
+"""
+"""In place of Stable-Baselines3: of what it has learned nothing is kept but that it balances."""
+
+
+@pytest.mark.parametrize("learned", [False, pytest.param(True, marks=pytest.mark.heavy)])
+def test_the_example_of_the_documentation_works_as_it_stands(learned, tmp_path):
     folder = tmp_path / "results"
     study = validated({"study": STUDY})
     write_study(canonical(study), folder)
@@ -79,12 +93,18 @@ def test_the_example_of_the_documentation_works_as_it_stands(tmp_path):
 
     def run(*command):
         done = subprocess.run(
-            command, cwd=tmp_path, env=surroundings(), capture_output=True, text=True, check=False
-        )
+            command, cwd=tmp_path, capture_output=True, text=True, check=False,
+            env={**surroundings(), "PYTHONPATH": "" if learned else str(tmp_path / "beside")},
+        )  # fmt: skip
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
 
-    run(sys.executable, "train_ppo.py")
+    if learned:
+        run(sys.executable, "train_ppo.py")
+    else:
+        (tmp_path / "beside").mkdir()
+        (tmp_path / "beside/stable_baselines3.py").write_text(STAND_IN, "utf-8")
+        (tmp_path / "ppo.zip").write_text("learned", "utf-8")
     (command,) = (text for kind, _, text in blocks if kind == "sh")
     program, *words = shlex.split(command)
     assert program == ".venv/bin/upswing"
@@ -101,5 +121,5 @@ def test_the_example_of_the_documentation_works_as_it_stands(tmp_path):
 
     # Trained with several seeds, and made by seed.
     (tmp_path / "ppo-7.zip").write_bytes((tmp_path / "ppo.zip").read_bytes())
-    asked = "from upswing.agents.elsewhere import *; print(Acting(find('by_seed.py:agent'), 7).action(0.3, 0.0))"
+    asked = "from upswing.agents.elsewhere import *; print(Acting(find('by_seed.py:agent'), 7, (-10, 0, 10)).action(0.3, 0.0))"
     assert run(sys.executable, "-c", asked) == "0\n"

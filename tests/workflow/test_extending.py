@@ -62,58 +62,74 @@ def test_a_part_is_one_new_file_that_a_configuration_names(page, tmp_path):
     config = (tmp_path / "config/mine.yaml").read_text("utf-8")
     key = {"learner": "learner: ", "encoder": "coding: ", "algorithm": "method: "}.get(page, "")
     assert len(re.findall(rf"{key or '(?:kind: |figures: .)'}{name}\b", config)) == 1
-    study.jobs("--", "results/mine/tables/runs.parquet", *wanted(page))
-    results = tmp_path / "results/mine"
-    runs = pd.read_parquet(results / "tables/runs.parquet")
-    assert len(runs) >= 2
-    assert runs["mean_reward"].between(-11, 0).all()
-    if page == "task":
-        trajectory = pd.read_parquet(results / f"runs/{runs['run'][0]}.trajectory.parquet")
-        assert abs(trajectory["angle"].iloc[0]) == pytest.approx(3.14159, abs=1e-4)
-    # An edit of the part makes again what it is part of.
-    study.edit(new[0], "\n\n\ndef ", "\n\n\nUNUSED = 1\n\n\ndef ")
-    planned = study.plan()
-    assert planned["figure" if page == "figure" else "train_seeds_0_to_1"] >= 1
+    assert study.plan()["train_seeds_0_to_1"] == len(yaml.safe_load(config)["experiments"][0]["alphas"])  # fmt: skip
 
 
-def wanted(page):
-    return ["results/mine/figures/rewards.svg"] if page == "figure" else []
-
-
-def test_a_study_of_all_of_them_runs_to_its_page(tmp_path):
-    study, _ = followed(PARTS[0], tmp_path)
-    together = {"results": "results/mine", "seeds": 2, "figures": ["rewards"]}
+@pytest.fixture(scope="module")
+def together(tmp_path_factory):
+    """A study of all of them, run to its page."""
+    folder = tmp_path_factory.mktemp("together")
+    study, _ = followed(PARTS[0], folder)
+    content = {"results": "results/mine", "seeds": 2, "figures": ["rewards"]}
     for page in PARTS:
         for path, text in blocks(page).items():
             if path.endswith(".py"):
-                (tmp_path / path).write_text(text, "utf-8")
+                (folder / path).write_text(text, "utf-8")
             else:
                 for key, value in yaml.safe_load(text).items():
                     if key in ("tasks", "architectures"):
-                        together.setdefault(key, {}).update(value)
+                        content.setdefault(key, {}).update(value)
                     if key == "experiments" and page != "figure":
-                        together.setdefault(key, []).extend(value)
-    study.write(together)
+                        content.setdefault(key, []).extend(value)
+    study.write(content)
     assert study.jobs()["train_seeds_0_to_1"] == 4
-    results = tmp_path / "results/mine"
+    return study
+
+
+def test_a_study_of_all_of_them_runs_to_its_page(together):
+    results = together.folder / "results/mine"
     assert (results / "figures/rewards.svg").is_file()
     page = (results / "report/index.html").read_text("utf-8")
     for words in ("The mean reward of every run", "the learner linear", "double-q", "quadrants"):
         assert words in page
-    assert study.plan() == {}
+    assert together.plan() == {}
+
+
+@pytest.mark.parametrize("page", PARTS)
+def test_a_part_is_run_and_an_edit_of_it_makes_again_what_it_is_part_of(page, together):
+    results = together.folder / "results/mine"
+    runs = pd.read_parquet(results / "tables/runs.parquet")
+    if page != "figure":
+        config = yaml.safe_load(blocks(page)["config/mine.yaml"])
+        runs = runs[runs["task"].isin(config["tasks"])]
+        runs = runs[runs["architecture"].isin(config["architectures"])]
+        assert len(runs) == 2
+    assert runs["mean_reward"].between(-11, 0).all()
+    if page == "task":
+        trajectory = pd.read_parquet(results / f"runs/{runs['run'].iloc[0]}.trajectory.parquet")
+        assert abs(trajectory["angle"].iloc[0]) == pytest.approx(3.14159, abs=1e-4)
+    (part,) = (path for path in blocks(page) if path.endswith(".py"))
+    before, after = "\n\n\ndef ", "\n\n\nUNUSED = 1\n\n\ndef "
+    together.edit(part, before, after)
+    planned = together.plan()
+    together.edit(part, after, before)
+    if page == "figure":
+        assert planned == {"figure": 1, "viewer": 1, "report": 1}
+    else:
+        assert planned["train_seeds_0_to_1"] == 1
 
 
 @pytest.mark.parametrize("page", ["algorithm", "encoder", "learner"])
-def test_a_part_learns_the_same_compiled_and_as_plain_python(page, tmp_path):
-    study, _ = followed(page, tmp_path)
-    config = yaml.safe_load((tmp_path / "config/mine.yaml").read_text("utf-8"))
+def test_a_part_learns_the_same_compiled_and_as_plain_python(page, together):
+    config = yaml.safe_load(blocks(page)["config/mine.yaml"])
     config["tasks"]["balancing"]["steps"] = 400
-    study.write(config)
+    folder = together.folder
+    (folder / "config/short.yaml").write_text(yaml.safe_dump(config), "utf-8")
     program = (
         "from pathlib import Path; from upswing.study.config import load;"
         "from upswing.study.matrix import Matrix; from upswing.runs.simulation import prepare;"
         "from upswing.physics.environment import empty_trajectory;"
-        "spec = next(iter(Matrix(load(Path('config/small.yaml'))).cells.values()));"
+        "spec = next(iter(Matrix(load(Path('config/short.yaml'))).cells.values()));"
         "setting = prepare(spec, 0); trajectory = empty_trajectory(400);"
         "setting.advance(trajectory, 0, 400);"
         "print(trajectory.angle.tobytes().hex(), trajectory.td_error.tobytes().hex());"
@@ -121,8 +137,8 @@ def test_a_part_learns_the_same_compiled_and_as_plain_python(page, tmp_path):
     )
     said = [
         subprocess.run(
-            [sys.executable, "-c", program], cwd=tmp_path, check=True, capture_output=True,
-            text=True, env={"PYTHONPATH": str(tmp_path / "src"), "NUMBA_DISABLE_JIT": off, "HOME": str(tmp_path)},
+            [sys.executable, "-c", program], cwd=folder, check=True, capture_output=True,
+            text=True, env={**together.surroundings(), "NUMBA_DISABLE_JIT": off},
         ).stdout
         for off in ("0", "1")
     ]  # fmt: skip

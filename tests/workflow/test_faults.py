@@ -16,6 +16,7 @@ import pytest
 from tests.helpers import make_spec
 from tests.workflow.small_study import BIN, Study
 from upswing.analysis.doctor import examine
+from upswing.runs.ending import GO_ON
 from upswing.runs.train import RunsFailed, train
 
 SLOW = {
@@ -126,7 +127,8 @@ def test_asked_to_end_it_ends_its_jobs_and_goes_on_later(study, undisturbed, sig
     process = begun(study)
     jobs = trainers(process)
     os.killpg(process.pid, sign)  # as a terminal does it
-    process.communicate(timeout=120)
+    output, _ = process.communicate(timeout=120)
+    assert output.splitlines()[-1] == GO_ON
     _, alive = psutil.wait_procs(jobs, timeout=20)
     assert not alive
     again = study.snakemake(*TABLES)

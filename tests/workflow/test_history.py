@@ -153,11 +153,12 @@ def test_entries_and_the_folder_are_compared(study):
     assert upswing(study, "compare", "@2", "results").returncode == 0
 
 
-def test_without_snakemakes_memory_no_entry_is_added(study):
+def test_without_snakemakes_memory_no_entry_is_added(study, tmp_path):
     before = [one.id for one in entries_of(study)]
-    shutil.rmtree(study.folder / ".snakemake")
-    assert study.jobs()["history"] == 1
-    assert [one.id for one in entries_of(study)] == before
+    copy = study.copied(tmp_path / "copy")
+    shutil.rmtree(copy.folder / ".snakemake")
+    assert copy.jobs("--", f"results/{ENTRIES}")["history"] == 1
+    assert [one.id for one in entries_of(copy)] == before
 
 
 def test_a_note_to_an_entry_comes_onto_the_page_and_makes_nothing_else(study):

@@ -39,7 +39,7 @@ def test_every_placeholder_of_every_command_is_quoted():
             commands += 1
             bare = [one for one in re.findall(r"\{[^{}]*\}", command) if not one.endswith(":q}")]
             assert bare == [], f"{path.name}: {command}"
-            assert command.strip().startswith('"upswing ')
+            assert command.strip().startswith('"{params.upswing:q} ')
     assert commands == rules - 2 >= 13  # `all` and `with_readings` have none
 
 

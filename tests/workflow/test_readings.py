@@ -159,3 +159,29 @@ def test_a_deleted_sweep_is_made_again_and_what_follows(study):
     assert study.jobs("--dry-run", *TARGETS) == {
         "sweep": 1, "readings": 1, "verdicts": 1, "history": 1, "report": 1,
     }  # fmt: skip
+
+
+def test_a_plain_run_leaves_sweeps_of_older_code_as_they_are_and_the_page_says_so(study):
+    """`make readings` renews them, and then the page says it no more."""
+    swept = {path: path.stat().st_mtime_ns for path in study.sweeps}
+    page = study.folder / "results/report/index.html"
+    study.write(changed(epsilon=0.02))
+    planned = study.jobs()
+    assert planned["train_seeds_0_to_1"] == len(CELLS)
+    assert not {"sweep", "finalists", "readings"} & planned.keys()
+    assert {path: path.stat().st_mtime_ns for path in study.sweeps} == swept
+    assert "changes to the sweep of tables;" in page.read_text("utf-8")
+    assert study.jobs() == {}
+    assert study.jobs(*TARGETS)["sweep"] == len(swept)
+    assert "of an older state" not in page.read_text("utf-8")
+    assert study.jobs() == study.jobs(*TARGETS) == {}
+
+
+def test_a_plain_run_without_a_table_of_the_sweeps_makes_none_of_them(study):
+    """It shows what is there; `make readings` makes the rest."""
+    study.sweeps[0].unlink()
+    assert study.jobs() == {}
+    (study.folder / "results/tables/robust.parquet").unlink()
+    assert not {"sweep", "readings"} & study.jobs().keys()
+    assert not (study.folder / "results/tables/robust.parquet").exists()
+    assert study.jobs(*TARGETS).items() >= {"sweep": 1, "readings": 1, "report": 1}.items()

@@ -6,44 +6,23 @@ from base64 import urlsafe_b64encode
 
 import pytest
 
-from tests.workflow.small_study import Study
+from tests.workflow.small_study import SMALL, as_run
 from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.train import train
 from upswing.study.spec import parse
 
-TRAIN, CELLS = "train_seeds_0_to_1", 2
-TINY = {
-    "results": "results",
-    "seeds": 2,
-    "seeds_per_job": 2,
-    "tasks": {"balancing": {"kind": "balancing", "steps": 3_000}},
-    "architectures": {"table": {"learner": "table"}},
-    "experiments": [{"tasks": ["balancing"], "architectures": ["table"], "alphas": [1, 0.5]}],
-}
+TRAIN, CELLS = "train_seeds_0_to_1", 5
 FOLLOWS = {"tables", "verdicts", "history", "comparison", "figure", "viewer", "report"}
 RUN = "balancing/table/alpha-1/seed-0"
 WINDOWS = f"results/runs/{RUN}.windows.parquet"
 FORGOTTEN = "There is no record of how"
 
 
-@pytest.fixture(scope="module")
-def once(tmp_path_factory):
-    """A study that has been run."""
-    study = Study(tmp_path_factory.mktemp("once"))
-    study.write(TINY)
-    done = study.snakemake()
-    assert done.returncode == 0, done.stdout + done.stderr
-    return study
-
-
 @pytest.fixture
 def study(once, tmp_path):
-    """A copy of it, to damage."""
-    study = object.__new__(Study)
-    study.folder = tmp_path / "copy"
-    shutil.copytree(once.folder, study.folder)
-    return study
+    """A study that has been run, to damage."""
+    return as_run(once, tmp_path)
 
 
 def records(study):
@@ -119,7 +98,7 @@ NAMES = [
 @pytest.mark.parametrize("damage", DAMAGES, ids=NAMES)
 def test_with_damaged_records_a_changed_epsilon_is_trained(study, damage):
     damage(study)
-    study.write({**TINY, "epsilon": 0.02})
+    study.write({**SMALL, "epsilon": 0.02})
     planned = study.jobs("--dry-run")
     assert planned.pop(TRAIN) == CELLS
     assert set(planned) == {*FOLLOWS, "study"}
@@ -133,20 +112,19 @@ def test_with_damaged_records_a_changed_epsilon_is_trained(study, damage):
 def test_with_damaged_records_nothing_is_trained_that_is_as_asked(study, damage):
     damage(study)
     planned = study.jobs("--dry-run")
-    if damage is take_another_jobs:  # Snakemake has records, of other params than are asked
-        assert planned.pop(TRAIN) == CELLS
     assert TRAIN not in planned
     assert set(planned) <= {*FOLLOWS, "study"}
 
 
 def test_what_was_planned_is_computed_and_then_nothing_is_left_to_do(study):
     remove_those_of_training(study)
-    study.write({**TINY, "epsilon": 0.02})
-    done = study.snakemake()
+    study.write({**SMALL, "epsilon": 0.02})
+    wanted = ("--", "results/tables/verdicts.parquet")
+    done = study.snakemake(*wanted)
     assert done.returncode == 0, done.stdout + done.stderr
     ledger = read_ledger(ledger_path(study.folder / "results", f"runs/{RUN}"))
     assert parse(ledger.made_from["spec"]).epsilon == 0.02
-    assert study.jobs("--dry-run") == {}
+    assert study.jobs("--dry-run", *wanted) == {}
 
 
 def test_records_that_say_what_is_asked_of_files_that_are_not_so_are_mended(study):
@@ -155,7 +133,7 @@ def test_records_that_say_what_is_asked_of_files_that_are_not_so_are_mended(stud
         text = path.read_text("utf-8")
         path.write_text(text.replace('\\"epsilon\\":0.01', '\\"epsilon\\":0.02'), "utf-8")
         path.write_text(path.read_text().replace('"epsilon":0.01', '"epsilon":0.02'), "utf-8")
-    study.write({**TINY, "epsilon": 0.02})
+    study.write({**SMALL, "epsilon": 0.02})
     assert study.jobs("--dry-run")[TRAIN] == CELLS
 
 
@@ -164,7 +142,7 @@ def test_without_a_ledger_the_windows_say_what_they_were_made_from(study):
     shutil.rmtree(study.folder / "results/checksums")
     assert TRAIN not in study.jobs("--dry-run")
     remove(study)
-    study.write({**TINY, "epsilon": 0.02})
+    study.write({**SMALL, "epsilon": 0.02})
     assert study.jobs("--dry-run")[TRAIN] == CELLS
 
 
@@ -174,7 +152,7 @@ def test_what_nobody_knows_is_said(study):
         run = f"balancing/table/alpha-1/seed-{seed}"
         ledger_path(study.folder / "results", f"runs/{run}").unlink()
         (study.folder / f"results/runs/{run}.windows.parquet").write_bytes(b"damaged")
-    study.write({**TINY, "epsilon": 0.02})
+    study.write({**SMALL, "epsilon": 0.02})
     done = study.snakemake("--dry-run")
     output = done.stdout + done.stderr
     assert f"{FORGOTTEN} 2 files in results were made" in output
@@ -193,3 +171,21 @@ def test_a_run_repeated_by_hand_makes_nothing_run(study):
     spec = read_metadata(study.folder / WINDOWS)["spec"]
     train(parse(spec), study.folder / "results")
     assert TRAIN not in study.jobs("--dry-run")
+
+
+def test_fewer_seeds_on_the_command_line_train_nothing_and_leave_nothing_to_train(study):
+    planned = study.jobs("--dry-run", "--config", "seeds=1")
+    assert not [rule for rule in planned if rule.startswith("train")]
+    assert set(planned) == {*FOLLOWS, "study"}
+    assert study.jobs("--dry-run") == {}
+
+
+def test_more_seeds_on_the_command_line_train_those_that_are_missing(study):
+    planned = study.jobs("--dry-run", "--config", "seeds=3")
+    trained = {rule: jobs for rule, jobs in planned.items() if rule.startswith("train")}
+    assert trained == {"train_seeds_2_to_2": CELLS}
+
+
+def test_fewer_seeds_of_another_study_are_trained(study):
+    study.write({**SMALL, "seeds": 2, "epsilon": 0.02})
+    assert study.jobs("--dry-run", "--config", "seeds=1")["train_seeds_0_to_0"] == CELLS

@@ -139,9 +139,8 @@ def test_slurm_makes_the_tables_that_one_machine_makes(slurm, tmp_path):
     a, b = (pd.read_parquet(s.folder / target) for s in (local, cluster))
     pd.testing.assert_frame_equal(a, b)
     ran = (slurm / "completed.txt").read_text("utf-8").count("JobState=COMPLETED")
-    assert (
-        ran == len(SMALL["experiments"][0]["architectures"]) + 1 + 2 + 3
-    )  # 5 cells, study, tables, verdicts
+    # 5 cells; study, tables and verdicts are made where Snakemake itself runs
+    assert ran == len(SMALL["experiments"][0]["architectures"]) + 1 + 2
 
 
 def folder(parent, name):

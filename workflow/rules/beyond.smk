@@ -11,11 +11,15 @@ rule bound:
         f"{RESULTS}/logs/bound.log",
     benchmark:
         f"{RESULTS}/benchmarks/bound.tsv"
+    resources:
+        mem_mb=memory("bound"),
+        runtime=minutes("bound"),
     params:
+        **TOLD,
         pendulum=lambda wildcards: pendulum_of_bound(STUDY).model_dump_json(),
         code=jobs.bound().fingerprint,
     shell:
-        "upswing bound {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} bound {params.results:q} --study {params.asked:q} > {log:q} 2>&1"
 
 
 rule settling:
@@ -27,11 +31,16 @@ rule settling:
         f"{RESULTS}/logs/settling.log",
     benchmark:
         f"{RESULTS}/benchmarks/settling.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("settling"),
+        runtime=minutes("settling"),
     params:
+        **TOLD,
         pendulum=lambda wildcards: pendulum_of_bound(STUDY).model_dump_json(),
         code=jobs.SETTLING.fingerprint,
     shell:
-        "upswing settling {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} settling {params.results:q} --study {params.asked:q} > {log:q} 2>&1"
 
 
 rule changes:
@@ -45,10 +54,15 @@ rule changes:
         f"{RESULTS}/logs/changes.log",
     benchmark:
         f"{RESULTS}/benchmarks/changes.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("changes"),
+        runtime=minutes("changes"),
     params:
+        **TOLD,
         code=jobs.CHANGES.fingerprint,
     shell:
-        "upswing changes {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} changes {params.results:q} > {log:q} 2>&1"
 
 
 rule shortest:
@@ -63,8 +77,12 @@ rule shortest:
         f"{RESULTS}/logs/shortest.log",
     benchmark:
         f"{RESULTS}/benchmarks/shortest.tsv"
+    resources:
+        mem_mb=lambda wildcards, attempt: attempt * needs_of_search(STUDY)[0],
+        runtime=lambda wildcards, attempt: attempt * needs_of_search(STUDY)[1],
     params:
+        **TOLD,
         search=lambda wildcards: SEARCH_TEXT,
         code=jobs.search(STUDY).fingerprint,
     shell:
-        "upswing shortest {STUDY_TEXT:q} --results {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} shortest {params.asked:q} --results {params.results:q} > {log:q} 2>&1"

@@ -19,9 +19,14 @@ rule figure:
         f"{RESULTS}/logs/figure/{{figure}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/figure/{{figure}}.tsv"
+    resources:
+        mem_mb=memory("figure"),
+        runtime=minutes("figure"),
     params:
+        **TOLD,
         cells=lambda wildcards: FILES.cells_of_figure(wildcards.figure),
+        seeds=lambda wildcards: FILES.seeds_of(FILES.cells_of_figure(wildcards.figure)),
         words=lambda wildcards: FILES.words_of_figure(wildcards.figure),
         code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
     shell:
-        "upswing figure {wildcards.figure:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} figure {wildcards.figure:q} {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} > {log:q} 2>&1"

@@ -14,7 +14,12 @@ rule history:
     benchmark:
         f"{RESULTS}/benchmarks/history.tsv"
     priority: 2
+    localrule: True
+    resources:
+        mem_mb=memory("history"),
+        runtime=minutes("history"),
     params:
+        **TOLD,
         code=jobs.HISTORY.fingerprint,
     shell:
-        "upswing history write {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} history write {params.results:q} > {log:q} 2>&1"

@@ -12,12 +12,19 @@ rule comparison:
     benchmark:
         f"{RESULTS}/benchmarks/comparison/{{comparison}}.tsv"
     priority: 1
+    resources:
+        mem_mb=memory("comparison"),
+        runtime=minutes("comparison"),
     params:
+        **TOLD,
         cells=lambda wildcards: FILES.cells_of_comparison(wildcards.comparison),
+        seeds=lambda wildcards: FILES.seeds_of(
+            FILES.cells_of_comparison(wildcards.comparison)
+        ),
         words=lambda wildcards: FILES.words_of_comparison(wildcards.comparison),
         code=jobs.COMPARISON.fingerprint,
     shell:
-        "upswing comparison {wildcards.comparison:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} comparison {wildcards.comparison:q} {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} > {log:q} 2>&1"
 
 
 rule viewer:
@@ -25,14 +32,19 @@ rule viewer:
     input:
         FILES.pictures("json"),
         FILES.comparisons,
-        "report/viewer.html",
+        f"{TEMPLATES}/viewer.html",
     output:
         f"{RESULTS}/{VIEWER_PAGE}",
     log:
         f"{RESULTS}/logs/viewer.log",
     benchmark:
         f"{RESULTS}/benchmarks/viewer.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("viewer"),
+        runtime=minutes("viewer"),
     params:
+        **TOLD,
         code=jobs.VIEWER.fingerprint,
     shell:
-        "upswing viewer {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} viewer {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} --templates {params.templates:q} > {log:q} 2>&1"

@@ -3,8 +3,8 @@
 
 rule report:
     input:
-        lambda wildcards: FILES.of_page(workflow.dag_settings.targets),
-        lambda wildcards: templates(Path("report")),
+        lambda wildcards: FILES.of_page(targets()),
+        lambda wildcards: templates(READ.templates),
     output:
         report(
             f"{RESULTS}/report/index.html",
@@ -18,7 +18,13 @@ rule report:
         f"{RESULTS}/logs/report.log",
     benchmark:
         f"{RESULTS}/benchmarks/report.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("report"),
+        runtime=minutes("report"),
     params:
+        **TOLD,
         code=jobs.page(FILES.shown_figures).fingerprint,
+        swept=lambda wildcards: FILES.shown_as_of(workflow.dag_settings.targets),
     shell:
-        "upswing report {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} report {params.results:q} --templates {params.templates:q} > {log:q} 2>&1"

@@ -15,10 +15,15 @@ rule study:
     benchmark:
         f"{RESULTS}/benchmarks/study.tsv"
     priority: 3
+    localrule: True
+    resources:
+        mem_mb=memory("study"),
+        runtime=minutes("study"),
     params:
+        **TOLD,
         study=lambda wildcards: STUDY_TEXT,
     shell:
-        "upswing study {params.study:q} --results {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} study {params.study:q} --results {params.results:q} > {log:q} 2>&1"
 
 
 rule tables:
@@ -34,10 +39,15 @@ rule tables:
     benchmark:
         f"{RESULTS}/benchmarks/tables.tsv"
     priority: 2
+    localrule: True
+    resources:
+        mem_mb=memory("tables"),
+        runtime=minutes("tables"),
     params:
+        **TOLD,
         code=jobs.TABLES.fingerprint,
     shell:
-        "upswing tables {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} tables {params.results:q} > {log:q} 2>&1"
 
 
 rule tiles:
@@ -49,17 +59,22 @@ rule tiles:
         f"{RESULTS}/logs/tiles.log",
     benchmark:
         f"{RESULTS}/benchmarks/tiles.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("tiles"),
+        runtime=minutes("tiles"),
     params:
+        **TOLD,
         code=jobs.tiles().fingerprint,
     shell:
-        "upswing tiles {RESULTS:q} > {log:q} 2>&1"
+        "{params.upswing:q} tiles {params.results:q} > {log:q} 2>&1"
 
 
 rule verdicts:
     input:
         FILES.of_cells(FILES.judged_cells),
         FILES.tiles,
-        lambda wildcards: FILES.weighed(workflow.dag_settings.targets),
+        lambda wildcards: FILES.weighed(targets()),
     output:
         f"{RESULTS}/tables/verdicts.parquet",
         f"{RESULTS}/tables/evidence.parquet",
@@ -67,9 +82,15 @@ rule verdicts:
         f"{RESULTS}/logs/verdicts.log",
     benchmark:
         f"{RESULTS}/benchmarks/verdicts.tsv"
+    localrule: True
+    resources:
+        mem_mb=memory("verdicts"),
+        runtime=minutes("verdicts"),
     params:
+        **TOLD,
+        seeds=lambda wildcards: FILES.seeds_of(FILES.judged_cells),
         claims=lambda wildcards: CLAIMS_TEXT,
         readings=lambda wildcards: STUDY.readings.model_dump_json(),
         code=jobs.VERDICTS.fingerprint,
     shell:
-        "upswing verdicts {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"
+        "{params.upswing:q} verdicts {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} --templates {params.templates:q} > {log:q} 2>&1"

@@ -18,7 +18,13 @@ for BLOCK, CELLS_OF_BLOCK in MATRIX.blocks.items():
             f"{RESULTS}/benchmarks/train/{{cell}}/{BLOCK.name}.tsv"
         wildcard_constraints:
             cell="|".join(map(re.escape, CELLS_OF_BLOCK)),
+        resources:
+            mem_mb=lambda wildcards, attempt: attempt
+            * memory_of_training(MATRIX.cells[wildcards.cell].task.steps),
+            runtime=lambda wildcards, attempt, block=BLOCK: attempt
+            * minutes_of_training(MATRIX.job(wildcards.cell, block)),
         params:
+            **TOLD,
             spec=lambda wildcards, block=BLOCK: MATRIX.job(
                 wildcards.cell, block
             ).canonical(),
@@ -27,4 +33,4 @@ for BLOCK, CELLS_OF_BLOCK in MATRIX.blocks.items():
                 MATRIX.cells[wildcards.cell].task.kind,
             ).fingerprint,
         shell:
-            "upswing train {params.spec:q} --results {RESULTS:q} > {log:q} 2>&1"
+            "{params.upswing:q} train {params.spec:q} --results {params.results:q} > {log:q} 2>&1"

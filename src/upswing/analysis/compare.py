@@ -14,14 +14,14 @@ NONE = "none"
 """The verdict of a study that does not have the claim."""
 
 
-class Estimate(NamedTuple):
+class Interval(NamedTuple):
     """A number with its interval; without one, NaN at both ends."""
 
     value: float
     low: float
     high: float
 
-    def parted_from(self, other: "Estimate") -> bool:
+    def parted_from(self, other: "Interval") -> bool:
         """Whether one lies outside the other's interval, either way round."""
         return (
             self.value < other.low
@@ -31,7 +31,7 @@ class Estimate(NamedTuple):
         )
 
 
-Estimates = tuple[Estimate | None, ...]
+Estimates = tuple[Interval | None, ...]
 """One for each study; None where it has none."""
 
 
@@ -71,7 +71,7 @@ class Comparison(NamedTuple):
     partial_runs: dict[tuple[bool, ...], list[str]]  # by which studies have them
 
 
-MEASURES = {
+COMPARED = {
     "falls": "falls_mean",
     "falls in the last fifth": "falls_last_fifth_mean",
     "upright share": "upright_share_mean",
@@ -152,7 +152,7 @@ def _cells(
         if all(own[cell] == texts[0][cell] for own in texts):
             same += 1
             continue
-        for words, column in MEASURES.items():
+        for words, column in COMPARED.items():
             if column in shared and len({own[cell][column] for own in texts}) > 1:
                 found.append(OfACell(cell, words, _values(rows, cell, column)))
         if not found or found[-1].cell != cell:
@@ -169,12 +169,12 @@ def _values(rows: Sequence[dict[Any, dict[str, Any]]], cell: str, column: str) -
     return tuple(_estimate(row[cell].get, column, low, high) for row in rows)
 
 
-def _estimate(get: Callable[[str], Any], value: str, low: str, high: str) -> Estimate | None:
+def _estimate(get: Callable[[str], Any], value: str, low: str, high: str) -> Interval | None:
     """An estimate of a row; None where there is none."""
     numbers = [get(name) for name in (value, low, high)]
     if not _is_number(numbers[0]):
         return None
-    return Estimate(*(float(one) if _is_number(one) else float("nan") for one in numbers))
+    return Interval(*(float(one) if _is_number(one) else float("nan") for one in numbers))
 
 
 def _is_number(value: Any) -> bool:

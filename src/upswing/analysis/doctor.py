@@ -24,9 +24,9 @@ from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.history_paths import ENTRIES, HISTORY
 from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.paths import CELLS, CHECKSUMS, EVIDENCE, RUNS, STUDY, VERDICTS
+from upswing.study.project_files import CLAIMS, along
 from upswing.study.spec import Spec
 
-CLAIMS = Path("config/claims.yaml")
 NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", ADOPTED, "report/snakemake.html")
 """What has no checksum: what a job said, what Snakemake measured or reports, runs and which of them were
 adopted (looked at singly)."""
@@ -52,12 +52,13 @@ class Diagnosis(NamedTuple):
     notes: list[str]  # what is no fault
 
 
-def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
+def examine(results: Path, claims: Path | None = None) -> Diagnosis:
     """Look at everything in a folder of results.
 
     Args:
         results: the folder.
-        claims: the file of claims; where the verdicts were judged by these, they are judged again.
+        claims: the file of claims (without: the working folder's, else the project's); where the
+            verdicts were judged by these, they are judged again.
 
     Raises:
         BadInput: the folder has no readable ``study.json``, so nobody can say what should be in it.
@@ -83,7 +84,7 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
     notes = [*_versions(found), *_left_out(matrix)]
     if whole:
         named = {finding.path for finding in findings}
-        judged, note = _claims(results, claims)
+        judged, note = _claims(results, claims or along(CLAIMS))
         notes += note
         findings += [
             _damaged(results / table, what)
@@ -258,14 +259,21 @@ def _versions(found: dict[str, dict[str, Any]]) -> list[str]:
     return [f"{count} runs were made with {words}" for words, count in sorted(other.items())]
 
 
+def orphans_of(results: Path) -> list[Path]:
+    """The files of runs that are not in the study that a folder is of.
+
+    Raises:
+        BadInput: nothing in the folder says which runs are.
+    """
+    return orphans(results, _joined(results))
+
+
 def delete_orphans(results: Path) -> list[Path]:
     """Delete the files of runs that are not in the study, and folders left empty; returns the files.
 
     The ledgers of these runs go with them.
     """
-    if not (results / STUDY).is_file():
-        raise BadInput([f"{results}/{STUDY}: missing; it says which runs belong to the study"])
-    matrix = joined(results)
+    matrix = _joined(results)
     gone = orphans(results, matrix)
     for path in gone:
         path.unlink()
@@ -278,3 +286,9 @@ def delete_orphans(results: Path) -> list[Path]:
             if folder.is_dir() and not any(folder.iterdir()):
                 folder.rmdir()
     return gone
+
+
+def _joined(results: Path) -> Joined:
+    if not (results / STUDY).is_file():
+        raise BadInput([f"{results}/{STUDY}: missing; it says which runs belong to the study"])
+    return joined(results)

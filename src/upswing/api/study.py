@@ -83,14 +83,14 @@ class Study:
             found = cell if named is None else named.cell
             if found not in known:
                 raise BadInput([f"{self.folder}: {cell}: no such cell; {near(found, known)[:300]}"])
-            return Cell(self._results, found)
+            return self._cell(found)
         self._check(given)
         matching = [
             name
             for name, spec in known.items()
             if task in (None, spec.task.name)
             and architecture in (None, spec.architecture.name)
-            and (alpha is None or alpha_text(spec.alpha) == alpha_text(float(alpha)))
+            and (alpha is None or alpha_text(spec.alpha) == _alpha(alpha))
         ]
         if len(matching) != 1:
             asked = ", ".join(
@@ -100,7 +100,7 @@ class Study:
             raise BadInput(
                 [f"{self.folder}: {asked or 'cell'}: {said if matching else 'no cell is that'}"]
             )
-        return Cell(self._results, matching[0])
+        return self._cell(matching[0])
 
     def run(self, run: str) -> Run:
         """A run by its id, ``balancing/table/alpha-0.5/seed-10003``, or by the path of a file of it.
@@ -137,6 +137,9 @@ class Study:
             )
         )
 
+    def _cell(self, cell: str) -> Cell:
+        return Cell(self._results, cell)
+
     def _check(self, given: Mapping[str, Any]) -> None:
         """Refuse names and step sizes that no cell has."""
         cells = self._results.cells.values()
@@ -148,7 +151,7 @@ class Study:
         problems = []
         for key, value in given.items():
             if value is not None:
-                name = alpha_text(float(value)) if key == "alpha" else value
+                name = _alpha(value) if key == "alpha" else value
                 if name not in known[key]:
                     problems.append(
                         f"{self.folder}: {key}: {value}: no cell has it; {near(name, known[key])}"
@@ -157,7 +160,7 @@ class Study:
             raise BadInput(problems)
 
     def __iter__(self) -> Iterator[Cell]:
-        return (Cell(self._results, cell) for cell in self._results.cells)
+        return (self._cell(cell) for cell in self._results.cells)
 
     def __len__(self) -> int:
         return len(self._results.cells)
@@ -180,25 +183,45 @@ class Study:
         return table_of(f"Study in {self.folder}", rows)
 
 
-def open(folder: str | PathLike[str] = "results") -> Study:
-    """The study in a folder of results.
+def open(folder: str | PathLike[str] = "results", at: str | None = None) -> Study:
+    """The study in a folder of results, or one that its history has kept.
 
     Args:
-        folder: of results: it has a ``study.json``.
+        folder: of results: it has a ``study.json``. ``"@1"`` is short for ``at="@1"`` of ``results``.
+        at: an entry of the folder's history, as ``upswing history`` calls it: ``@1``, ``@last``, an id
+            or its beginning, or a git commit. Of such a study there are the tables only.
 
     Raises:
-        BadInput: it is missing, is no folder of results, or its study cannot be read.
+        BadInput: it is missing, is no folder of results, or its study cannot be read; or there is no
+            such entry.
     """
     place = Path(folder)
+    if str(folder).startswith("@") and not place.exists():
+        if at is not None:
+            raise BadInput([f"open: {folder}: is an entry; name a folder beside at={at!r}"])
+        place, at = Path("results"), str(folder)
     if not place.is_dir():
         said = "is a file" if place.exists() else "missing"
         raise BadInput([f"{place}: {said}; it should be a folder of results{_beside(place)}"])
+    if at is not None:
+        from upswing.analysis.history.read import find
+        from upswing.api.kept import KeptStudy
+
+        return KeptStudy(place, find(place, at))
     if not (place / STUDY).is_file():
         right = f"is no folder of results: there is no {STUDY} in it"
         raise BadInput([f"{place}: {right}; `make reproduce` makes one{_beside(place)}"])
     results = Results(place)
     _ = results.study  # what cannot be read is said at once
     return Study(results)
+
+
+def _alpha(value: Any) -> str:
+    """A step size as ids have it; of what is no number its text, which no cell has."""
+    try:
+        return alpha_text(float(value))
+    except (TypeError, ValueError):
+        return str(value)
 
 
 def _beside(place: Path) -> str:

@@ -28,9 +28,48 @@ Positional = Annotated[
 ]
 """The folder as the last argument, which the rules of the workflow give."""
 
-Claims = Annotated[Path, typer.Option(metavar="FILE", help="The file of claims.")]
-Sweeps = Annotated[Path, typer.Option(metavar="FILE", help="The file of sweeps.")]
-Templates = Annotated[Path, typer.Option(metavar="FOLDER", help="The templates of the page.")]
+
+CONFIG = Path("config/config.yaml")
+CLAIMS = Path("config/claims.yaml")
+SWEEPS = Path("config/readings.yaml")
+TEMPLATES = Path("report")
+"""What is read where nothing is given: in the working folder, or else what comes with the package."""
+
+
+def or_along(context: typer.Context, param: typer.CallbackParam, path: Path) -> Path:
+    """What was given, or else what the working folder has, or else what comes with the package."""
+    from upswing.study.project_files import along  # what is imported for it has its cost: only now
+
+    source = context.get_parameter_source(str(param.name))
+    return along(path) if source is not None and source.name == "DEFAULT" else path
+
+
+def needs_checkout(what: str, *places: Path) -> None:
+    """Refuse what renews files of the project where these are the installed package's or not there.
+
+    Args:
+        what: what is asked for, as it is called.
+        places: the files or folders that would be renewed.
+
+    Raises:
+        BadInput: one of them is not in a checkout.
+    """
+    from upswing.study.errors import BadInput
+    from upswing.study.project_files import is_own
+
+    if any(is_own(place) or not place.exists() for place in places):
+        raise BadInput([f"{what}: needs a checkout of the project, whose files it renews"])
+
+
+Claims = Annotated[
+    Path, typer.Option(metavar="FILE", help="The file of claims.", callback=or_along)
+]
+Sweeps = Annotated[
+    Path, typer.Option(metavar="FILE", help="The file of sweeps.", callback=or_along)
+]
+Templates = Annotated[
+    Path, typer.Option(metavar="FOLDER", help="The templates of the page.", callback=or_along)
+]
 StudyText = Annotated[str, typer.Argument(metavar="STUDY", help="The study in JSON.")]
 
 AskedStudy = Annotated[
@@ -40,10 +79,6 @@ AskedStudy = Annotated[
     ),
 ]
 """The study as the workflow asks for it, so that a job depends on no more of it than it needs."""
-
-CLAIMS = Path("config/claims.yaml")
-SWEEPS = Path("config/readings.yaml")
-TEMPLATES = Path("report")
 
 
 def asked_study(text: str) -> "Study | None":

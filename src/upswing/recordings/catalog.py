@@ -1,9 +1,6 @@
 """A catalog of recordings on this machine alone, and a viewer for it: ``make browse``."""
 
-import os
 import re
-import socket
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,16 +11,14 @@ from urllib.parse import quote
 import pandas as pd
 
 from upswing.recordings.asked_to_end import ended_by_signals, wait_for
-from upswing.recordings.ports import LOOPBACK, check_free
-from upswing.recordings.processes import running
+from upswing.recordings.fence import fenced
+from upswing.recordings.ports import LOOPBACK, check_free, free_port
+from upswing.recordings.processes import Process, running
 from upswing.recordings.program import RERUN
+from upswing.recordings.starting import wait_until_listening
 from upswing.recordings.studies import Chosen
 from upswing.runs.results import Results
 from upswing.study.errors import BadInput
-
-PORT, WEB_PORT = 9871, 9872
-"""Where the catalog and the web viewer are served, where nothing else is said."""
-
 
 AT_A_TIME = 250
 """Number of recordings that are registered between two words about it."""
@@ -38,6 +33,7 @@ class Catalog(NamedTuple):
     url: str  # the catalog; the one dataset, or the one run, where there is only one
     datasets: dict[str, str]  # the address of each table, by the name of its dataset
     runs: int
+    port: int  # on which it answers
 
 
 def silent(_: str) -> None:
@@ -100,7 +96,7 @@ def catalog_of(chosen: Sequence[Chosen], port: int, say: Say = silent) -> Iterat
                 url = dataset.segment_url(dataset.segment_ids()[0])
             elif len(groups) == 1:
                 url = datasets[name]
-        yield Catalog(url, datasets, total)
+        yield Catalog(url, datasets, total, port)
 
 
 def _dataset(study: str, task: str, several: bool) -> str:
@@ -108,43 +104,28 @@ def _dataset(study: str, task: str, several: bool) -> str:
     return re.sub(r"[^\w :.-]", "-", f"{study}: {task}") if several else task
 
 
-def check_display(ports: Sequence[int]) -> None:
-    """``BadInput`` if no window can be opened; it says how to see a page, which needs ``ports``."""
-    if not has_display():
-        words = (
-            "there is no display here; `upswing browse --web` (or `make browse WEB=1`) serves a page "
-            f"instead. Over ssh, say on the computer before you `{tunnel(ports)}` and open the "
-            "address of the page there"
-        )
-        raise BadInput([words])
-
-
-def tunnel(ports: Sequence[int]) -> str:
-    """The command that brings ports of this machine to the one before which somebody sits."""
-    ways = " ".join(f"-L {port}:{LOOPBACK}:{port}" for port in ports)
-    return f"ssh -N {ways} {socket.gethostname()}"
-
-
 def show(catalog: Catalog, web: bool, web_port: int) -> None:
     """Open a viewer on ``catalog`` and wait until it is closed, or Ctrl-C."""
-    if web:
-        check_free(web_port)
-        command = [str(RERUN), "--serve-web", "--bind", LOOPBACK]
-        command += ["--web-viewer-port", str(web_port), catalog.url]
-        page = f"http://{LOOPBACK}:{web_port}/?url={quote(catalog.url, safe='')}"
-        print(f"{catalog.runs:,} runs at {page}\nCtrl-C ends it.", flush=True)
-    else:
-        check_display([PORT, WEB_PORT])
-        command = [str(RERUN), catalog.url]
-        print(
-            f"{catalog.runs:,} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it."
-        )
-    with ended_by_signals(), running(command) as process:
+    with ended_by_signals(), _page(catalog, web_port) if web else _window(catalog) as process:
         wait_for(process)
 
 
-def has_display() -> bool:
-    """Whether a window can be opened."""
-    if sys.platform != "linux":
-        return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+@contextmanager
+def _window(catalog: Catalog) -> Iterator[Process]:
+    print(f"{catalog.runs:,} runs at {catalog.url}\nClose the viewer or press Ctrl-C to end it.")
+    with running([str(RERUN), catalog.url]) as process:
+        yield process
+
+
+@contextmanager
+def _page(catalog: Catalog, port: int) -> Iterator[Process]:
+    """The viewer's page, behind a fence."""
+    check_free(port)
+    inner = free_port()
+    command = [str(RERUN), "--serve-web", "--bind", LOOPBACK, "--port", str(free_port())]
+    command += ["--web-viewer-port", str(inner), catalog.url]
+    address = f"http://{LOOPBACK}:{port}/?url={quote(catalog.url, safe='')}"
+    with running(command) as process, fenced(port, inner, catalog.port):
+        wait_until_listening(process, inner)
+        print(f"{catalog.runs:,} runs at {address}\nCtrl-C ends it.", flush=True)
+        yield process

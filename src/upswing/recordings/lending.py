@@ -26,9 +26,6 @@ from upswing.runs.results import Results
 from upswing.study.ids import recording_id
 from upswing.study.paths import PAGE, VIEWER
 
-PORT = 9873
-"""Where the report is served, if nobody else is there."""
-
 CONNECTIONS = 16
 """Largest number of connections at a time; one more is turned away."""
 
@@ -67,7 +64,7 @@ class Lent(NamedTuple):
 
 
 @contextmanager
-def lending(results: Results, port: int = PORT) -> Iterator[Lent]:
+def lending(results: Results, port: int) -> Iterator[Lent]:
     """Serve the report and every run's recording; at another port where ``port`` is in use."""
     token = secrets.token_urlsafe(32)
     try:

@@ -1,25 +1,18 @@
 """Viewers that wait for what is streamed to them: a window, or a page for where there is no display."""
 
 import subprocess
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 from urllib.parse import quote
 
-from upswing.recordings.asked_to_end import LOOKED_EVERY, heed, wait_for
-from upswing.recordings.catalog import has_display, tunnel
+from upswing.recordings.asked_to_end import heed, wait_for
+from upswing.recordings.displays import check_display, tunnel
 from upswing.recordings.fence import fenced
-from upswing.recordings.ports import LOOPBACK, check_free, free_port, listens
+from upswing.recordings.ports import LOOPBACK, check_free, free_port
 from upswing.recordings.processes import Process, running
 from upswing.recordings.program import RERUN
-from upswing.study.errors import BadInput
-
-PORT, WEB_PORT = 9874, 9875
-"""Where a page's stream and the page itself are served, where nothing else is said."""
-
-PATIENCE = 20.0
-"""Time limit for a viewer to start [s]."""
+from upswing.recordings.starting import wait_until_listening
 
 
 class Looking(NamedTuple):
@@ -48,12 +41,11 @@ def window() -> Iterator[Looking]:
         BadInput: there is no display.
         RuntimeError: it cannot be opened.
     """
-    if not has_display():
-        raise BadInput(["there is no display here; --web serves a page instead"])
+    check_display("--web serves a page instead")
     port = free_port()
     command = [str(RERUN), "--bind", LOOPBACK, "--port", str(port), "--expect-data-soon"]
     with running(command) as process:
-        _started(process, port)
+        wait_until_listening(process, port)
         says = "in the viewer: close it, or press Ctrl-C here, to end it."
         yield Looking(_url(port), says, process)
 
@@ -82,7 +74,7 @@ def page(port: int, web_port: int) -> Iterator[Looking]:
         ) as process,
         fenced(web_port, inner, port),
     ):
-        _started(process, port, inner)
+        wait_until_listening(process, port, inner)
         address = f"http://{LOOPBACK}:{web_port}/?url={quote(_url(port), safe='')}"
         elsewhere = f"From another computer, say there first: {tunnel([web_port, port])}"
         yield Looking(_url(port), f"at {address}\n{elsewhere}\nCtrl-C ends it.", process)
@@ -90,13 +82,3 @@ def page(port: int, web_port: int) -> Iterator[Looking]:
 
 def _url(port: int) -> str:
     return f"rerun+http://{LOOPBACK}:{port}/proxy"
-
-
-def _started(process: Process, *ports: int) -> None:
-    """Wait until a viewer answers."""
-    until = time.monotonic() + PATIENCE
-    while not all(map(listens, ports)):
-        if process.poll() is not None or time.monotonic() > until:
-            raise RuntimeError(f"{RERUN.name}: the viewer did not start")
-        heed()
-        time.sleep(LOOKED_EVERY)

@@ -140,7 +140,7 @@ def page_of(
         "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
         "registered": registered(results, study),
         "exploratory": exploratory(templates),
-        "over": over_readings(results, templates, verdicts),
+        "over": over_readings(results, templates, verdicts, study),
         **system(study, templates),
         "cells": cells,
         "greedy": _greedy(runs),

@@ -7,6 +7,7 @@ from typing import Any
 import pandas as pd
 from markupsafe import Markup
 
+from upswing.analysis.robustness.outdated import Outdated, outdated
 from upswing.analysis.robustness.shipped import read_shipped
 from upswing.analysis.robustness.tables import (
     OF_A_CAUSE,
@@ -18,17 +19,22 @@ from upswing.analysis.robustness.tables import (
 from upswing.report.inline_svg import inline
 from upswing.runs.files.typed_table import read_table
 from upswing.study import paths
+from upswing.study.claims import load_claims
 from upswing.study.config import Study
 from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.study.sweeps import load_sweeps
 
 SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
 CAUSES, LIKELIEST = 3, 8
 """Number of readings shown: of those that decide a claim, and of the most likely ones."""
 
+SWEEPS, CLAIMS = Path("config/readings.yaml"), Path("config/claims.yaml")
+"""What is asked of the readings, beside the folder of templates."""
+
 Row = dict[str, Any]
 
 
-def over_readings(results: Path, templates: Path, verdicts: list[Row]) -> Row:
+def over_readings(results: Path, templates: Path, verdicts: list[Row], study: Study) -> Row:
     """How the claims do over readings: where that is from, and of which claims it is known."""
     own = (results / ROBUST).exists()
     known = [row["claim"] for row in verdicts if not pd.isna(row["weighted_share"])]
@@ -41,7 +47,20 @@ def over_readings(results: Path, templates: Path, verdicts: list[Row]) -> Row:
         and row["claim"] in shipped.claims
         and row["grade"] != shipped.claims[row["claim"]]["grade"]
     ]
-    return {"own": own, "known": known, "made_from": shipped.made_from, "differs": differs}
+    return {
+        "own": own, "known": known, "made_from": shipped.made_from, "differs": differs,
+        "outdated": _outdated(results, templates.parent, study) if own else None,
+    }  # fmt: skip
+
+
+def _outdated(results: Path, project: Path, study: Study) -> Outdated | None:
+    """What has changed since the sweeps; None where nothing has, or nobody says what is asked now."""
+    asked_for = project / SWEEPS, project / CLAIMS
+    if not all(path.is_file() for path in asked_for):
+        return None
+    sweeps, claims = load_sweeps(asked_for[0], study), load_claims(asked_for[1], study)
+    found = outdated(results, sweeps, claims, study)
+    return found if found.changed else None
 
 
 def swept(results: Path, study: Study) -> Row:

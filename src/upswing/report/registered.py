@@ -7,6 +7,7 @@ from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
 from upswing.study.paths import LEDGER_OF_VERDICTS
+from upswing.study.project_files import along
 from upswing.study.registration import REGISTRATION, checksum_of, load_registration, seeds_of
 
 Row = dict[str, Any]
@@ -14,9 +15,10 @@ Row = dict[str, Any]
 
 def registered(results: Path, study: Study) -> Row | None:
     """All entries, and what of these results is not as the last says; None where there are none."""
-    if not REGISTRATION.exists():
+    registration = along(REGISTRATION)
+    if not registration.exists():
         return None
-    entries = load_registration(REGISTRATION)
+    entries = load_registration(registration)
     entry = entries[-1]
     now = {
         "seeds": seeds_of(study),

@@ -38,6 +38,7 @@ from upswing.study.paths import (
     figure,
     finalists_of_sweep,
 )
+from upswing.study.registration import checksum_of
 
 PICTURE = ("svg", "png", "json")
 """The endings of a figure's files: the picture twice, and its words."""
@@ -230,6 +231,13 @@ class Targets(TargetsOfSweeps):
                 for block in self.matrix.blocks_of(self.matrix.cells[cell])
             )
         )
+
+    def seeds_of(self, cells: Iterable[str]) -> str:
+        """A checksum of the seeds of these cells: what is made from them reads each of their runs.
+
+        Of a job one file is named, which stays the same where its block has fewer seeds than before.
+        """
+        return checksum_of(str({cell: self.matrix.cells[cell].seeds for cell in cells}))
 
     def of_page(self, asked: Collection[str]) -> list[str]:
         """What the page is made from, besides its templates.

@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 from upswing.analysis.robustness.tables import SHIPPED
+from upswing.study import jobs
 from upswing.study.claims import Claim
 from upswing.study.config import Study
 from upswing.study.matrix import Matrix
@@ -19,10 +20,14 @@ from upswing.study.paths import (
     finalists_of_sweep,
     group_of_sweep,
 )
+from upswing.study.project_files import TEMPLATES
 from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 ASKING_FOR_READINGS = ("readings", "with_readings")
 """The targets, rules of the workflow, by which the claims are judged under other readings."""
+
+ONLY_IF_ASKED = "readings/only-made-by-make-readings"
+"""A file that is never there, for what must not be made unless it is asked for."""
 
 SWEPT = (SELECTION, READINGS, DECISIVE, ROBUST)
 """The tables of the sweeps over readings, which the page shows once they have been run."""
@@ -35,6 +40,7 @@ class TargetsOfSweeps:
     study: Study
     claims: Mapping[str, Claim]
     sweeps: Mapping[str, Sweep]
+    templates: Path = TEMPLATES
 
     @cached_property
     def matrix(self) -> Matrix:
@@ -83,8 +89,18 @@ class TargetsOfSweeps:
         return self.sweeps[name].model_dump_json(include={"reports", "rounds"})
 
     def are_coming(self, asked: Collection[str]) -> bool:
-        """Whether this run of the workflow is asked for the sweeps."""
+        """Whether this run of the workflow is asked for the sweeps; only then are they run and judged.
+
+        Where it is not, they are shown as they are, whatever code they are of.
+        """
         return not {*ASKING_FOR_READINGS, *self.readings}.isdisjoint(asked)
+
+    def judged_from(self, asked: Collection[str]) -> list[str]:
+        """What the sweeps are judged from, where this run of the workflow is asked for that.
+
+        Where it is not, it is a file that nobody makes: Snakemake then takes the tables as they are.
+        """
+        return self.swept if self.are_coming(asked) else self._below(ONLY_IF_ASKED)
 
     def weighed(self, asked: Collection[str]) -> list[str]:
         """What says how the claims do over readings: the study's own sweeps, or what is shipped."""
@@ -92,13 +108,24 @@ class TargetsOfSweeps:
         (own,) = self._below(ROBUST)
         if (coming and own in self.readings) or Path(own).exists():
             return [own]
-        shipped = Path("report", SHIPPED)
+        shipped = self.templates / SHIPPED
         return [str(shipped)] if shipped.exists() else []
 
     def content_of_sweep(self, job: str) -> str:
         """What the result of a job of the sweeps depends on besides the code, as a checksum."""
         sweep, group = self.groups[job]
         return content_of(sweep, self.study, group, self.matrix.cells)
+
+    def shown_as_of(self, asked: Collection[str]) -> str:
+        """A checksum of what the sweeps would be made from now, by which a page says whether they are.
+
+        It is empty where there are none to be shown.
+        """
+        if not (self.are_coming(asked) or Path(*self._below(ROBUST)).exists()):
+            return ""
+        codes = [jobs.sweep(one, self.study).fingerprint for one in self.sweeps.values()]
+        texts = [*codes, jobs.JUDGED_OVER_READINGS.fingerprint, self.content_of_readings]
+        return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
     @cached_property
     def content_of_readings(self) -> str:

@@ -96,8 +96,11 @@ def _restore_job(results: str, rule: str, job: Spec, records: "Records") -> Iter
             if known is None:
                 records.forget(path)
                 yield path
-        # A record that says what is asked now must be right. One that does not makes the job run.
-        elif known is None or (repr(asked) in known and known != sorted(map(repr, made))):
+        # A run that is as asked, from whichever block of seeds, gets a record that says so. One
+        # that is not keeps no record that says what is asked: that makes the job run.
+        elif known is None or (
+            known != sorted(map(repr, made)) and (made[0] == asked or repr(asked) in known)
+        ):
             records.write(path, rule, made)
 
 

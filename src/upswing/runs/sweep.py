@@ -14,10 +14,12 @@ from upswing.runs.rows import framed
 from upswing.runs.simulation import prepare
 from upswing.study.config import Study
 from upswing.study.errors import BadInput, near
+from upswing.study.matrix import Matrix
 from upswing.study.measured import Measures
 from upswing.study.paths import finalists_of_sweep, group_of_sweep
 from upswing.study.spec import Spec
 from upswing.study.sweeps import Overrides, Sweep, canonical_of, groups, label, specs
+from upswing.study.swept_from import ledger_of_group, swept_from
 
 OF_A_SWEPT_RUN: Columns = {
     **OF_A_RUN, "sweep": "text", "readings": "text", "cell": "text", "task": "text",
@@ -30,8 +32,18 @@ def path_of(results: Path, sweep: str, group: str) -> Path:
     return results / group_of_sweep(sweep, group)
 
 
-def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str) -> Path:
+def write_group(
+    results: Path, study: Study, name: str, sweep: Sweep, group: str, code: str
+) -> Path:
     """Run a group of a sweep and write its table; returns the table's path.
+
+    Args:
+        results: the folder of results.
+        study: whose cells are run.
+        name: of the sweep.
+        sweep: the sweep.
+        group: the name of one of its groups.
+        code: the fingerprint of the code that runs it, which is kept with it.
 
     Raises:
         BadInput: there is no such group, or nobody has said which readings go on to its round.
@@ -59,7 +71,8 @@ def write_group(results: Path, study: Study, name: str, sweep: Sweep, group: str
     path = path_of(results, name, group)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_table(path, framed(rows))
-    seal(results, f"readings/{name}/{group}", [path])
+    made_from = swept_from(sweep, study, chosen, Matrix(study).cells, code)
+    seal(results, ledger_of_group(name, group), [path], **made_from)
     return path
 
 

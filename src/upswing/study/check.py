@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from upswing.study.claims import Claim, load_claims
-from upswing.study.config import Study, from_snakemake, load
+from upswing.study.config import Study, from_snakemake, load, validated
 from upswing.study.errors import BadInput
+from upswing.study.project_files import Files
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import Sweep, load_sweeps
 
@@ -21,16 +22,27 @@ class Asked(NamedTuple):
     sweeps: Mapping[str, Sweep]
 
 
-def checked(config: Path, claims: Path, sweeps: Path) -> Study:
+def checked(
+    config: Path, claims: Path, sweeps: Path, overlaid: Mapping[str, Any] | None = None
+) -> Study:
     """The study in ``config``; claims and sweeps are looked at where their files are there.
+
+    Args:
+        config: the configuration.
+        claims: the file of claims.
+        sweeps: the file of sweeps.
+        overlaid: what Snakemake will be told beside the configuration, as ``--config``.
 
     Raises:
         BadInput: every problem of any of the files.
     """
     problems: list[str] = []
-    study = _tried(problems, lambda: load(config))
+    source = "--config" if overlaid else str(config)
+    study = _tried(
+        problems, lambda: from_snakemake([config], overlaid) if overlaid else load(config)
+    )
     if study is not None:
-        _tried(problems, lambda: check_results(study.results, str(config)))
+        _tried(problems, lambda: check_results(study.results, source))
     if claims.exists():
         _tried(problems, lambda: load_claims(claims, study))
     if sweeps.exists() and study is not None:
@@ -48,12 +60,30 @@ def asked(
     Raises:
         BadInput: every problem of any of the files.
     """
+    source = " + ".join(map(str, files))
+    return _asked(lambda: from_snakemake(files, merged), source, claims, sweeps)
+
+
+def asked_of_module(config: Mapping[str, Any], files: Files) -> Asked:
+    """The same for a workflow that has the rules as a module, by the module's configuration.
+
+    Raises:
+        BadInput: every problem of any of the files.
+    """
+    source = "config of the module" if config else str(files.config)
+    return _asked(
+        lambda: validated({source: config}) if config else load(files.config),
+        source, files.claims, files.sweeps,
+    )  # fmt: skip
+
+
+def _asked(read: Callable[[], Study], source: str, claims: Path, sweeps: Path) -> Asked:
     problems: list[str] = []
-    study = _tried(problems, lambda: from_snakemake(files, merged))
+    study = _tried(problems, read)
     claimed = _tried(problems, lambda: load_claims(claims, study))
     swept = None
     if study is not None:
-        _tried(problems, lambda: check_results(study.results, " + ".join(map(str, files))))
+        _tried(problems, lambda: check_results(study.results, source))
         swept = _tried(problems, lambda: load_sweeps(sweeps, study))
     if problems or study is None or claimed is None or swept is None:
         raise BadInput(problems)

@@ -16,6 +16,9 @@ from upswing.study.readings import Readings
 from upswing.study.task import AnyTask
 from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
 
+COMMAND_LINE = "--config"
+"""Where a run of Snakemake has said something that stands in no file."""
+
 ADOPTED = "adopted"
 """The learner that no configuration names: an agent from elsewhere, which somebody has to vouch for."""
 
@@ -136,9 +139,34 @@ def from_snakemake(files: Sequence[str | Path], merged: Mapping[str, Any]) -> St
         for key, value in merged.items()
         if not any(content.get(key) == value for content in said)
     }
-    overlay = {"--config": overlaid} if overlaid else {}
+    first = _number_of_seeds(overlaid)
+    overlay = {COMMAND_LINE: overlaid} if overlaid else {}
     sources = {name: content for of in written.values() for name, content in of.items()}
-    return validated({**contents, **overlay}, written={**sources, **overlay})
+    study = validated({**contents, **overlay}, written={**sources, **overlay})
+    return study if first is None else with_first_seeds(study, first)
+
+
+def _number_of_seeds(overlaid: dict[str, Any]) -> int | None:
+    """The number in ``--config seeds=3``, taken out: how many of the study's seeds, not which."""
+    number = overlaid.get("seeds")
+    if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= MOST_RUNS:
+        return None
+    return int(overlaid.pop("seeds"))
+
+
+def with_first_seeds(study: Study, number: int) -> Study:
+    """The study with the first seeds of each cell, so that runs that are there are used again.
+
+    Of a larger number the study's seeds are counted on; those of an experiment stay as they are.
+    """
+    more = range(study.seeds[-1] + 1, study.seeds[-1] + 1 + max(0, number - len(study.seeds)))
+    experiments = tuple(
+        one if one.seeds is None else one.model_copy(update={"seeds": one.seeds[:number]})
+        for one in study.experiments
+    )
+    seeds = (*study.seeds[:number], *more)
+    data = {**dict(study), "seeds": list(seeds), "experiments": experiments}
+    return validated({COMMAND_LINE: data})
 
 
 def validated(

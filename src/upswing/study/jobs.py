@@ -71,13 +71,11 @@ VERDICTS = Code(
 )  # fmt: skip
 HISTORY = Code(("upswing.analysis.history.write",), ())
 CHANGES = Code(("upswing.analysis.ablation",), ("scipy",))
+JUDGED_OVER_READINGS = Code(
+    ("upswing.analysis.robustness.write", "upswing.analysis.contraction"), ("scipy",)
+)
 READINGS = Code(
-    (
-        "upswing.analysis.robustness.write",
-        "upswing.analysis.contraction",
-        "upswing.figures.readings",
-    ),
-    ("scipy", "matplotlib"),
+    (*JUDGED_OVER_READINGS.entries, "upswing.figures.readings"), ("scipy", "matplotlib")
 )
 FINALISTS = Code(("upswing.analysis.robustness.selection", "upswing.runs.study_file"), ())
 COMPARISON = Code(("upswing.recordings.comparison",), ("rerun-sdk", "scipy"))

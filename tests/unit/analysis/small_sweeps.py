@@ -4,6 +4,7 @@ from tests.helpers import ARCHITECTURES
 from upswing.analysis.robustness.selection import write_finalists
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import write_group
+from upswing.study import jobs
 from upswing.study.config import validated
 from upswing.study.sweeps import groups, load_sweeps
 
@@ -70,4 +71,6 @@ def run(folder, sweeps):
             if group.round not in said:
                 write_finalists(folder, STUDY, name, sweep, group.round)
                 said.add(group.round)
-            write_group(folder, STUDY, name, sweep, group.name)
+            write_group(
+                folder, STUDY, name, sweep, group.name, jobs.sweep(sweep, STUDY).fingerprint
+            )

@@ -10,7 +10,7 @@ import pytest
 
 from tests.made_up import FROM, NOISE, ONE, OTHER, STUDY, ZERO, N, made_up, part, share_of
 from upswing.analysis.aggregate import summarise
-from upswing.analysis.compare import Estimate, compare
+from upswing.analysis.compare import Interval, compare
 from upswing.analysis.history.called import sides
 from upswing.analysis.history.sides import of_folder
 from upswing.analysis.history.write import write_entry
@@ -135,7 +135,7 @@ def test_cells_that_differ_stand_side_by_side_with_their_intervals(make, capsys)
     assert (row.cell, row.measure, found.same_cells) == (ONE, "upright share", 2)
     table = pd.read_parquet(b / CELLS).set_index("cell")
     expected = [table.loc[ONE, f"upright_share_mean{end}"] for end in ("", "_low", "_high")]
-    assert row.values[1] == Estimate(*expected)
+    assert row.values[1] == Interval(*expected)
     assert row.parted
     main(["compare", str(a), str(b)])
     said = capsys.readouterr().out
@@ -277,7 +277,7 @@ def test_many_differences_are_named_where_all_are_asked_for(make, capsys):
 
 def test_an_estimate_without_an_interval_lies_nowhere_apart():
     nothing = math.nan
-    assert not Estimate(1, nothing, nothing).parted_from(Estimate(2, nothing, nothing))
-    assert Estimate(1, 0.5, 1.5).parted_from(Estimate(2, 0.5, 2.5))
-    assert Estimate(1, 0, 3).parted_from(Estimate(2, 1.5, 2.5))
-    assert not Estimate(1, 0, 3).parted_from(Estimate(2, 0.5, 2.5))
+    assert not Interval(1, nothing, nothing).parted_from(Interval(2, nothing, nothing))
+    assert Interval(1, 0.5, 1.5).parted_from(Interval(2, 0.5, 2.5))
+    assert Interval(1, 0, 3).parted_from(Interval(2, 1.5, 2.5))
+    assert not Interval(1, 0, 3).parted_from(Interval(2, 0.5, 2.5))

@@ -1,6 +1,7 @@
 """A folder of results is looked through: what is whole, damaged, missing, left over."""
 
 import json
+import shlex
 import shutil
 from pathlib import Path
 
@@ -263,6 +264,14 @@ def test_orphans_are_named_and_deleted_and_nothing_else(folder, capsys):
     assert main(["doctor", str(folder)]) == 0
     assert "13 files are of no run of the study" in capsys.readouterr().out
     assert main(["clean-orphans", str(folder)]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[:13] == [str(path) for path in examine(folder).orphans]
+    assert listed[13].endswith("nothing is deleted without --yes:")
+    assert gone.exists()
+    command = shlex.split(listed[14])
+    assert command[0] == "upswing"
+    assert main(command[1:]) == 0
+    assert capsys.readouterr().out.splitlines() == [*listed[:13], "deleted 13 files"]
     assert not gone.exists()
     assert not left.exists()
     assert examine(folder).findings == []

@@ -1,6 +1,7 @@
 """Sweeps that are run: their runs, their rounds, and the tables and figures that come of them."""
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -8,10 +9,15 @@ import pandas as pd
 import pytest
 
 from tests.unit.analysis.small_sweeps import STUDY, loaded, run
+from upswing.analysis.robustness.outdated import outdated
 from upswing.analysis.robustness.read import read_sweep
 from upswing.analysis.robustness.selection import select, write_finalists
+from upswing.analysis.robustness.shipped import over_readings
+from upswing.analysis.robustness.tables import LEDGER_OF_READINGS
 from upswing.analysis.robustness.write import write_readings
 from upswing.figures.readings import draw_readings
+from upswing.runs.files.ledger import ledger_path, read_ledger, seal
+from upswing.runs.files.provenance import provenance
 from upswing.runs.rows import collected
 from upswing.runs.study_file import canonical, write_study
 from upswing.runs.sweep import write_group
@@ -19,9 +25,10 @@ from upswing.runs.train import train
 from upswing.study.claims import load_claims
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
-from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION, group_of_sweep
 from upswing.study.readings import Readings
 from upswing.study.sweeps import canonical_of, groups, readings_of, specs
+from upswing.study.swept_from import ledger_of_group
 
 CLAIMS = load_claims(Path("config/claims.yaml"))
 
@@ -139,7 +146,7 @@ def test_missing_groups_are_named(swept, tmp_path):
     with pytest.raises(BadInput, match="`make readings` makes them"):
         write_readings(tmp_path, sweeps, CLAIMS)
     with pytest.raises(BadInput, match="no such group; did you mean 'as-the-study'"):
-        write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi")
+        write_group(tmp_path, STUDY, "tables", sweeps["tables"], "as-the-studi", "")
     with pytest.raises(BadInput, match="`make readings` makes them"):
         write_finalists(tmp_path, STUDY, "networks", sweeps["networks"], 2)
 
@@ -158,4 +165,35 @@ def test_a_round_without_finalists_says_how_they_are_named(swept, tmp_path, text
     with pytest.raises(
         BadInput, match=f"{said}.*; `upswing finalists networks 2 {tmp_path}` makes it"
     ):
-        write_group(tmp_path, STUDY, "networks", sweep, later.name)
+        write_group(tmp_path, STUDY, "networks", sweep, later.name, "")
+
+
+def test_what_changed_since_the_sweeps_is_said(swept, tmp_path):
+    """Of the code and the settings of a sweep, of the code that judges, and of claims."""
+    folder = tmp_path / "results"
+    shutil.copytree(swept[0], folder)
+    sweeps, claims = swept[1], {name: CLAIMS[name] for name in ("C1", "C2", "C12")}
+    write_readings(folder, sweeps, claims)
+
+    def changed(sweeps=sweeps, claims=claims, study=STUDY):
+        return outdated(folder, sweeps, claims, study).changed
+
+    assert outdated(folder, sweeps, claims, STUDY).commit == provenance().git_commit
+    assert changed() == []
+    other = STUDY.model_copy(update={"epsilon": 0.02})
+    assert changed(study=other) == ["the sweeps of networks and tables"]
+    more = {**sweeps, "tables": sweeps["tables"].model_copy(update={"seeds": 3})}
+    assert changed(sweeps=more) == ["the sweep of tables"]
+    part = CLAIMS["C2"].parts[0].model_copy(update={"at_least": 0.123})
+    stricter = CLAIMS["C2"].model_copy(update={"parts": (part, *CLAIMS["C2"].parts[1:])})
+    now = {**claims, "C2": stricter}
+    assert changed(claims=now) == ["C2"]
+    assert set(over_readings(folder, tmp_path, now)[0]) == {"C1", "C12"}
+    group = groups(sweeps["tables"], STUDY)[0].name
+    ledger = ledger_path(folder, ledger_of_group("tables", group))
+    made = read_ledger(ledger).made_from
+    table = folder / group_of_sweep("tables", group)
+    seal(folder, ledger_of_group("tables", group), [table], **{**made, "code": "older"})
+    assert changed() == ["the sweep of tables"]
+    ledger_path(folder, LEDGER_OF_READINGS).unlink()  # of a version that kept nothing of this
+    assert changed() == ["the sweep of tables", "the code that judges"]

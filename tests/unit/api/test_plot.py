@@ -10,11 +10,6 @@ from PIL import Image
 import upswing
 
 
-@pytest.fixture(scope="module")
-def study(results):
-    return upswing.open(results.folder)
-
-
 @pytest.mark.parametrize(
     "name", ["balancing/table/alpha-0.1/seed-1", "full-control/modular-networks-5/alpha-1/seed-2"]
 )

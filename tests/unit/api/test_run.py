@@ -9,6 +9,7 @@ from safetensors.numpy import load_file, save_file
 
 import upswing
 from tests.helpers import run
+from tests.unit.api.said import says
 from upswing.runs.files.trajectory import OF_A_TRAJECTORY, OF_WINDOWS
 from upswing.runs.files.typed_table import read_table
 from upswing.study.ids import file_of
@@ -19,18 +20,6 @@ RUNS = (
     "full-control/modular-networks-5/alpha-1/seed-2",
     "balancing/idle/alpha-none/seed-0",
 )
-
-
-@pytest.fixture(scope="module")
-def study(results):
-    return upswing.open(results.folder)
-
-
-def says(call):
-    with pytest.raises(upswing.BadInput) as raised:
-        call()
-    (problem,) = raised.value.problems
-    return problem
 
 
 @pytest.mark.parametrize("name", RUNS)

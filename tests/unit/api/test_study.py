@@ -6,23 +6,12 @@ import pytest
 
 import upswing
 from tests.made_up import ONE, OTHER, N, made_up
+from tests.unit.api.said import says
 from upswing.analysis import statistics
 from upswing.runs.files.tables import read_cells
 from upswing.study.paths import RUNS, VERDICTS
 
 TABLE = "balancing/table/alpha-1"
-
-
-@pytest.fixture(scope="module")
-def study(results):
-    return upswing.open(results.folder)
-
-
-def says(call):
-    with pytest.raises(upswing.BadInput) as raised:
-        call()
-    (problem,) = raised.value.problems
-    return problem
 
 
 # The folder.
@@ -109,6 +98,8 @@ def test_a_control_has_no_alpha(study):
         ({"task": "full-control", "architecture": "table"}, "no cell is that"),
         ({"architecture": "tabel"}, "architecture: tabel: no cell has it; did you mean 'table'?"),
         ({"alpha": 0.2}, "alpha: 0.2: no cell has it"),
+        ({"alpha": "half"}, "alpha: half: no cell has it; there are 0.1, 1, none"),
+        ({"task": "balancing", "alpha": [1]}, "alpha: [1]: no cell has it"),
         ({}, "cell: 4 cells are that"),
         ({"cell": TABLE, "alpha": 1}, "give an id, or task, architecture and alpha"),
     ],

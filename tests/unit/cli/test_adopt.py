@@ -43,6 +43,29 @@ def test_name_seeds_and_folder_can_be_given_and_tables_come_with_the_study(folde
 
 
 @pytest.mark.parametrize(
+    "words",
+    [
+        ["balancing/my-agent/alpha-none/seed-7"],
+        ["balancing/my-agent/alpha-none"],
+        ["--task", "balancing", "--architecture", "my-agent", "--seed", "7"],
+    ],
+)
+def test_who_would_watch_an_adopted_agent_is_told_why_not_and_what_to_do(folder, capsys, words):
+    assert main(["adopt", "My_Agent.py:policy", "--task", "balancing", "--seed", "7"]) == 0
+    Path("My_Agent.py").unlink()  # nothing below asks the agent itself
+    capsys.readouterr()
+    assert main(["watch", *words, "--save", "watched.rrd"]) == 2
+    said = capsys.readouterr().err
+    assert "balancing/my-agent/alpha-none: is an adopted agent" in said
+    assert len(said.splitlines()) <= 2  # the number of problems, and the problem
+    assert not Path("watched.rrd").exists()
+    follow, show = (one.split()[1:] for one in said.split("`")[3::2])
+    assert main([*follow, "--from", "10", "--seconds", "1", "--to", "played.png"]) == 0
+    assert main([*show, "--print"]) == 0
+    assert capsys.readouterr().out.endswith("balancing/my-agent/alpha-none/seed-7.rrd\n")
+
+
+@pytest.mark.parametrize(
     ("words", "said"),
     [
         (["My_Agent.py:policy"], "missing option '--task'"),

@@ -165,7 +165,7 @@ def jobs():
 
 def test_every_log_of_the_workflow_begins_with_how_to_repeat_it():
     rules = "".join(path.read_text("utf-8") for path in (ROOT / "workflow/rules").glob("*.smk"))
-    called = set(re.findall(r'"upswing ([a-z-]+) .*> \{log:q\}', rules))
+    called = set(re.findall(r'"\{params.upswing:q\} ([a-z-]+) .*> \{log:q\}', rules))
     assert called > {"tables", "verdicts", "figure", "report"}
     # Training says it for each run, in the run's own log.
     # Nobody but a user writes all comparisons in one go.

@@ -10,7 +10,7 @@ from upswing.cli.main import PANELS, main
 from upswing.cli.options import Named, Positional
 from upswing.study.ids import file_of
 
-WITHOUT = {"check", "schema", "keys"}
+WITHOUT = {"check", "init", "schema", "keys"}
 """What neither reads nor writes a folder of results."""
 
 OPTION_ONLY = {"train", "study", "shortest", "browse", "watch", "play", "site", "adopt"}
@@ -23,7 +23,7 @@ READERS = [
 ]  # fmt: skip
 """What takes it in both ways, with the arguments that come first."""
 
-MAKERS = ["bound", "tiles"]
+MAKERS = ["bound", "settling", "tiles"]
 """What takes it in both ways, too, and needs nothing in it."""
 
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from tests.unit.cli.terminal import ANSI, BOXES, columns_of, in_pipe, in_terminal
-from upswing.analysis.compare import Comparison, Estimate, OfACell, OfAPart
+from upswing.analysis.compare import Comparison, Interval, OfACell, OfAPart
 from upswing.analysis.doctor import Diagnosis, Finding
 from upswing.analysis.history.configuration import Difference
 from upswing.cli.shown.beyond import print_changes, print_chosen
@@ -164,7 +164,7 @@ def test_readings_say_under_how_many_a_claim_holds(room, capsys):
 
 def test_a_comparison_and_a_diagnosis_are_wrapped_in_a_terminal_only(room, capsys):
     runs = [f"{LONG}/seed-{seed}" for seed in range(12)]
-    values = (Estimate(0.456, 0.4, 0.5), Estimate(0.789, 0.7, 0.8))
+    values = (Interval(0.456, 0.4, 0.5), Interval(0.789, 0.7, 0.8))
     comparison = Comparison(
         configuration=[Difference("epsilon", ("0.01", "0.02"))],
         cells=[OfACell(LONG, "upright share", values)],

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from tests.helpers import ARCHITECTURES
+from tests.shared import copied
 from upswing.analysis.aggregate import write_tables
 from upswing.analysis.verdicts import write_verdicts
 from upswing.figures import FIGURES, claims_of, drawable
@@ -58,7 +59,10 @@ def claims():
 @pytest.fixture(scope="session")
 def study(tmp_path_factory, claims):
     """Such a study; that a table can represent the task for three of four starts is made up."""
-    folder = tmp_path_factory.mktemp("figures")
+    return Results(copied(tmp_path_factory, "figures", lambda folder: _run(folder, claims)))
+
+
+def _run(folder, claims):
     asked = validated({"study": STUDY})
     matrix = Matrix(asked)
     write_study(canonical(asked), folder)
@@ -68,9 +72,7 @@ def study(tmp_path_factory, claims):
     starts = pd.DataFrame({"angle": [-3.0, -1.0, 1.0, 3.0], "success": [True, True, False, True]})
     with written(folder / TILES) as beside:
         starts.to_parquet(beside)
-    found = Results(folder)
-    write_verdicts(found, claims, {})
-    return found
+    write_verdicts(Results(folder), claims, {})
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,8 @@
 """The Gymnasium environments with another pendulum, track and starts than the thesis's."""
 
+import sys
 import warnings
+from types import ModuleType
 
 import gymnasium
 import numpy as np
@@ -123,3 +125,75 @@ def test_gymnasium_has_nothing_to_say_against_another_pendulum():
             make("full-control", **OWN, track={"limit": 2.0}).unwrapped, skip_render_check=True
         )
         check_env(make("balancing", accelerations=[-20, 20]).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("mode", ["sync", "async"])
+def test_several_of_another_pendulum_step_as_one_does_and_can_be_seen(mode):
+    asked = {**OWN, "track": {"limit": 0.5}, "start": {"middle": 180, "within": 10}}
+    name = KINDS["full-control"]
+    many = gymnasium.make_vec(
+        name, num_envs=2, vectorization_mode=mode, render_mode="rgb_array", **asked
+    )
+    ones = [make("full-control", render_mode="rgb_array", **asked) for _ in range(2)]
+    try:
+        assert many.single_action_space == ones[0].action_space == gymnasium.spaces.Discrete(5)
+        assert many.single_observation_space == ones[0].observation_space
+        assert many.metadata["render_fps"] == 100
+        observations, _ = many.reset(seed=5)
+        assert (observations == [one.reset(seed=5 + i)[0] for i, one in enumerate(ones)]).all()
+        for t in range(150):
+            actions = np.array([(t // 5) % 5, 4 - (t // 7) % 5])
+            seen, rewards, *_ = many.step(actions)
+            told = [one.step(int(a)) for one, a in zip(ones, actions, strict=True)]
+            assert (seen == [one[0] for one in told]).all()
+            assert (rewards == [one[1] for one in told]).all()
+        for picture_of_many, one in zip(many.render(), ones, strict=True):
+            assert np.array_equal(picture_of_many, one.render())
+    finally:
+        many.close()
+
+
+def test_a_film_of_another_pendulum_has_its_pictures_at_its_own_rate(tmp_path, monkeypatch):
+    """What Gymnasium hands to moviepy, whether or not it is installed."""
+    films = []
+
+    class Film:
+        def __init__(self, pictures, fps):
+            films.append((pictures, fps))
+
+        def write_videofile(self, path, **_):
+            assert path.endswith(".mp4")
+
+    module = ModuleType("moviepy.video.io.ImageSequenceClip")
+    module.ImageSequenceClip = Film
+    for part in ("moviepy", "moviepy.video", "moviepy.video.io"):
+        monkeypatch.setitem(sys.modules, part, ModuleType(part))
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    plain = make("full-control", render_mode="rgb_array", **OWN)
+    env = gymnasium.wrappers.RecordVideo(plain, tmp_path)
+    env.reset(seed=0)
+    shown = [plain.render()]
+    for _ in range(20):
+        env.step(4)
+        shown.append(plain.render())
+    env.close()
+    ((pictures, fps),) = films
+    assert fps == 100  # of 10 ms each: in real time
+    assert np.array_equal(pictures, shown)
+    assert not np.array_equal(pictures[0], pictures[-1])
+
+
+def test_a_film_of_another_pendulum_can_be_taken(tmp_path):
+    pytest.importorskip("moviepy", reason="moviepy, of the extra `video`, is not installed")
+    plain = make("full-control", render_mode="rgb_array", **OWN)
+    env = gymnasium.wrappers.RecordVideo(plain, tmp_path)
+    env.reset(seed=0)
+    for _ in range(20):
+        env.step(4)
+    env.close()
+    (film,) = tmp_path.glob("*.mp4")
+    from moviepy import VideoFileClip
+
+    with VideoFileClip(str(film)) as taken:
+        assert taken.fps == 100
+        assert taken.duration == pytest.approx(0.21)

@@ -194,7 +194,7 @@ def test_a_window_of_its_own_is_opened_and_closed(tmp_path, monkeypatch):
     viewer.chmod(0o700)
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setattr(looking_module, "RERUN", viewer)
-    monkeypatch.setattr(looking_module, "has_display", lambda: True)
+    monkeypatch.setenv("DISPLAY", ":0")  # which it does not use
     spec = make_spec(steps=500)
     with looking_module.window() as looking:
         watch(spec, Pace.of(FAST, spec.task), lambda live: live.stream.connect_grpc(looking.url))

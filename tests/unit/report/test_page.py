@@ -9,28 +9,18 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from upswing.figures import draw, drawable
-from upswing.recordings.comparison import write_comparisons
 from upswing.recordings.content_policy import source_of
-from upswing.recordings.viewer import write_viewer
 from upswing.report import words
 from upswing.report.cost import costs
 from upswing.report.page import write_report
 from upswing.report.scale import strip
-from upswing.study.claims import load_claims
 from upswing.study.paths import CELLS, PAGE, RUNS, VERDICTS
 
 
 @pytest.fixture(scope="module")
-def address(results):
+def address(small_page):
     """The page of a small study, with everything beside it that it links."""
-    claims = load_claims(Path("config/claims.yaml"))
-    for name in drawable(results.cells):
-        draw(name, results, claims)
-    write_comparisons(results, claims)
-    write_viewer(results, claims, Path("report"))
-    write_report(results.folder, Path("report"))
-    return (results.folder / PAGE).resolve().as_uri()
+    return small_page
 
 
 @pytest.fixture

@@ -3,6 +3,9 @@
 import subprocess
 import sys
 
+from tests.workflow.small_study import Study
+from upswing.runs.ending import GO_ON
+
 PROGRAM = """
 import os, signal, threading, time
 from upswing.runs.ending import answer_in_a_thread
@@ -32,3 +35,13 @@ def said(mended, timeout):
 
 def test_it_does_not_wait_for_itself():
     assert said("answer_in_a_thread(); answer_in_a_thread()", 30) == "graceful\n"
+
+
+def test_a_run_that_fails_ends_with_how_to_go_on(tmp_path):
+    study = Study(tmp_path)
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results/study.json").mkdir()  # the job cannot write its file
+    (tmp_path / "results/study.json/in-the-way").touch()
+    done = study.snakemake("--", "results/tables/runs.parquet")
+    assert done.returncode != 0
+    assert done.stderr.splitlines()[-1] == GO_ON

@@ -189,6 +189,43 @@ def test_blocks_have_every_seed_once_between_fixed_borders(first, count, size):
         assert {seed // size for seed in block.seeds} == {block.number}
 
 
+@pytest.fixture
+def two_experiments(tmp_path):
+    """A study in a file, with seeds of its own and an experiment that has its own."""
+    content = deepcopy(ONE_CELL) | {"seeds": {"first": 10_000, "count": 5}}
+    content["experiments"].append(
+        {**content["experiments"][0], "alphas": [0.1], "seeds": [7, 9, 10_003]}
+    )
+    path = tmp_path / "study.yaml"
+    path.write_text(yaml.safe_dump(content), "utf-8")
+    return path, content
+
+
+@pytest.mark.parametrize(
+    ("number", "of_study", "own"),
+    [
+        (2, (10_000, 10_001), (7, 9)),
+        (5, (10_000, 10_001, 10_002, 10_003, 10_004), (7, 9, 10_003)),
+        (6, tuple(range(10_000, 10_006)), (7, 9, 10_003)),
+    ],
+)
+def test_a_number_of_seeds_on_the_command_line_is_of_the_seeds_there_are(
+    two_experiments, number, of_study, own
+):
+    path, content = two_experiments
+    study = from_snakemake([path], {**content, "seeds": number})
+    assert [spec.seeds for spec in Matrix(study).cells.values()] == [of_study, own]
+
+
+def test_too_many_seeds_on_the_command_line_are_refused(two_experiments):
+    path, content = two_experiments
+    for number in (10_001, 0, -1, True):
+        with pytest.raises(BadInput, match="--config: seeds: "):
+            from_snakemake([path], {**content, "seeds": number})
+    with pytest.raises(BadInput, match="come to 10,003 runs"):
+        from_snakemake([path], {**content, "seeds": 10_000})
+
+
 def test_cells_share_the_blocks_of_the_seeds_that_they_share():
     content = deepcopy(ONE_CELL) | {"seeds": 60, "seeds_per_job": 30}
     content["experiments"].append({**content["experiments"][0], "alphas": [0.1], "seeds": 40})

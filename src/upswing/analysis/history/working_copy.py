@@ -1,7 +1,10 @@
 """What git says of the checkout that this package is in; empty outside one."""
 
-import subprocess
 from pathlib import Path
+from tempfile import TemporaryDirectory
+
+# Training knows that module, and so its text stays as it is.
+from upswing.runs.files.provenance import _git as git
 
 MOST_OF_A_PATCH = 200_000
 """Of the difference of tracked files, as it is kept [bytes]."""
@@ -12,14 +15,10 @@ def patch() -> tuple[bytes, bool]:
 
     Nothing of files that git does not know, and of binary files only that they differ.
     """
-    command = [*_git(), "diff", "HEAD", "--no-color", "--no-ext-diff", "--no-textconv"]
-    try:
-        found = subprocess.run(
-            command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
-            check=False,
-        ).stdout  # fmt: skip
-    except OSError:
-        return b"", True
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "patch")  # it may be in any encoding
+        git("diff", "HEAD", "--no-color", "--no-ext-diff", "--no-textconv", f"--output={file}")
+        found = file.read_bytes() if file.is_file() else b""
     if len(found) <= MOST_OF_A_PATCH:
         return found, True
     kept = found[:MOST_OF_A_PATCH]
@@ -28,17 +27,6 @@ def patch() -> tuple[bytes, bool]:
 
 def commit_of(revision: str) -> str:
     """The commit that a branch, a tag or ``HEAD~1`` stands for; empty if none does."""
-    if not revision or revision.startswith("-"):
+    if not revision or revision.startswith("-") or not revision.isprintable():
         return ""
-    command = [*_git(), "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}"]
-    try:
-        answer = subprocess.run(command, capture_output=True, text=True, check=True)
-    except (OSError, ValueError, subprocess.CalledProcessError):
-        return ""
-    return answer.stdout.strip()
-
-
-def _git() -> list[str]:
-    here = Path(__file__).resolve().parent
-    # Without its optional lock: a job that is killed must not leave one in the repository.
-    return ["git", "--no-optional-locks", "-C", str(here)]
+    return git("rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")

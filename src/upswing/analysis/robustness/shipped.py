@@ -13,8 +13,14 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from upswing.analysis.robustness.tables import OF_A_SUMMARY, REMEDY, SHIPPED
+from upswing.analysis.robustness.tables import (
+    LEDGER_OF_READINGS,
+    OF_A_SUMMARY,
+    REMEDY,
+    SHIPPED,
+)
 from upswing.runs.files.atomic import written
+from upswing.runs.files.ledger import ledger_path, read_ledger
 from upswing.runs.files.provenance import provenance
 from upswing.runs.files.typed_table import read_table
 from upswing.study.claims import Claim, canonical_claims
@@ -48,11 +54,14 @@ def over_readings(
 ) -> tuple[dict[str, Row], str]:
     """What the readings say of each claim, and where it is from: ``own``, ``shipped`` or nowhere.
 
+    Of a claim that has been changed since it was judged there, they say nothing.
+
     Raises:
         BadInput: what is there cannot be read.
     """
     if (results / ROBUST).exists():
-        return _own(results), "own"
+        changed = changed_claims(results, claims)
+        return {name: row for name, row in _own(results).items() if name not in changed}, "own"
     found = read_shipped(templates)
     taken = {
         claim: row
@@ -103,6 +112,16 @@ def _number(value: Any) -> float:
 def checksum_of(claim: Claim) -> str:
     """What tells whether a claim is still the one that was judged."""
     return hashlib.sha256(canonical_claims({"C": claim}).encode()).hexdigest()[:16]
+
+
+def changed_claims(results: Path, claims: Mapping[str, Claim]) -> list[str]:
+    """The claims that are no longer those that a study's own sweeps were judged by."""
+    try:
+        judged = read_ledger(ledger_path(results, LEDGER_OF_READINGS)).made_from
+    except BadInput:
+        return []
+    by = {name: judged.get(f"claim {name}") for name in claims}
+    return [name for name, claim in claims.items() if by[name] not in (None, checksum_of(claim))]
 
 
 def _own(results: Path) -> dict[str, Row]:

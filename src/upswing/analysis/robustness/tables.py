@@ -29,4 +29,7 @@ OF_A_SUMMARY = {
 SHIPPED = "readings.json"
 """Among the templates of the page: how claims do over readings, for a study that has not swept them."""
 
+LEDGER_OF_READINGS = "readings"
+"""The ledger of these tables; it has checksums of the code and the claims by which they were made."""
+
 REMEDY = "`make readings` makes it"

@@ -9,10 +9,13 @@ import pandas as pd
 from upswing.analysis.robustness.judging import decisive, robustness, summary
 from upswing.analysis.robustness.read import read_sweep
 from upswing.analysis.robustness.selection import select
+from upswing.analysis.robustness.shipped import checksum_of
+from upswing.analysis.robustness.tables import LEDGER_OF_READINGS
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
 from upswing.runs.results import Results
 from upswing.runs.study_file import read_study
+from upswing.study import jobs
 from upswing.study.claims import Claim
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
@@ -51,7 +54,13 @@ def write_readings(
     write_table(results / DECISIVE, decisive(judged, sweeps))
     write_table(results / ROBUST, robust)
     tables = [results / table for table in (SELECTION, READINGS, DECISIVE, ROBUST)]
-    seal(results, "readings", [path for path in tables if path.exists()])
+    seal(
+        results,
+        LEDGER_OF_READINGS,
+        [path for path in tables if path.exists()],
+        code=jobs.JUDGED_OVER_READINGS.fingerprint,
+        **{f"claim {name}": checksum_of(claim) for name, claim in claims.items()},
+    )
     return robust
 
 

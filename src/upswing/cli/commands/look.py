@@ -113,7 +113,8 @@ def browse(
 ) -> None:
     """Browse the recordings of all runs of all studies of a folder, or of some."""
     from upswing.cli.terminal import say
-    from upswing.recordings.catalog import catalog_of, check_display, has_display, show, tunnel
+    from upswing.recordings.catalog import catalog_of, show
+    from upswing.recordings.displays import check_display, has_display, tunnel
     from upswing.recordings.lending import lending
     from upswing.recordings.ports import check_free
     from upswing.recordings.studies import choose
@@ -125,7 +126,11 @@ def browse(
             print("\n".join(str(one.results.folder / path) for path in one.runs["recording"]))
         return
     if not web:  # before thousands of recordings are registered
-        check_display([port, web_port, report_port])
+        ways = tunnel([port, web_port, report_port])
+        check_display(
+            "`upswing browse --web` (or `make browse WEB=1`) serves a page instead. Over ssh, say on "
+            f"the computer before you `{ways}` and open the address of the page there"
+        )
     for number in (port, web_port) if web else (port,):
         check_free(number)
     for remark in remarks:

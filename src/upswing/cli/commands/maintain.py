@@ -15,6 +15,7 @@ from upswing.cli.options import (
     Positional,
     Sweeps,
     Templates,
+    needs_checkout,
     results_folder,
 )
 from upswing.cli.panel import Panel
@@ -23,23 +24,30 @@ panel = Panel("Maintain")
 
 
 @panel.subcommand("doctor")
-def doctor(positional: Positional = None, results: Named = None) -> int:
+def doctor(positional: Positional = None, results: Named = None, claims: Claims = CLAIMS) -> int:
     """Check that a folder of results is whole; says what to delete where it is not."""
     from upswing.analysis.doctor import examine
     from upswing.cli.shown.folders import print_diagnosis
 
-    diagnosis = examine(results_folder(results, positional))
-    print_diagnosis(diagnosis)
+    folder = results_folder(results, positional)
+    diagnosis = examine(folder, claims)
+    print_diagnosis(diagnosis, folder)
     return 1 if diagnosis.findings else 0
 
 
 @panel.subcommand("clean-orphans")
-def clean_orphans(positional: Positional = None, results: Named = None) -> None:
-    """Delete the files of runs that are not, or no longer, in the study."""
-    from upswing.analysis.doctor import delete_orphans
+def clean_orphans(
+    positional: Positional = None,
+    results: Named = None,
+    yes: Annotated[bool, typer.Option("--yes", help="Delete them; without, only list.")] = False,
+) -> None:
+    """List the files of runs that are not, or no longer, in the study; delete them with --yes."""
+    from upswing.analysis.doctor import delete_orphans, orphans_of
+    from upswing.cli.shown.folders import print_orphans
 
-    for path in delete_orphans(results_folder(results, positional)):
-        print(f"deleted {path}")
+    folder = results_folder(results, positional)
+    found = delete_orphans(folder) if yes else orphans_of(folder)
+    print_orphans(found, folder, deleted=yes)
 
 
 @panel.subcommand("readme")
@@ -61,6 +69,7 @@ def readme(
     from upswing.study.registration import of
     from upswing.study.sweeps import load_sweeps
 
+    needs_checkout("upswing readme", templates, readme)
     folder = results_folder(results, positional)
     study = read_study(folder)
     judged, swept = load_claims(claims, study), load_sweeps(sweeps, study)
@@ -92,6 +101,7 @@ def exploratory(
     """Keep the verdicts of a study on seeds that were seen before, to be shown beside others."""
     from upswing.report.exploratory import write_exploratory
 
+    needs_checkout("upswing exploratory", templates)
     print(write_exploratory(results_folder(results, positional), templates))
 
 
@@ -111,6 +121,7 @@ def screenshots(
     from upswing.recordings.screenshots import take_screenshots
     from upswing.runs.results import Results
 
+    needs_checkout("upswing screenshots", into)
     take_screenshots(Results(results_folder(results, positional)), into, run, task)
 
 

@@ -2,20 +2,14 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from upswing.cli.options import Named, results_folder
+from upswing.cli.options import CONFIG, Named, results_folder
 from upswing.cli.panel import Panel
 
-if TYPE_CHECKING:
-    from upswing.study.config import Study
-
 panel = Panel("Look")
-
-CONFIG = Path("config/config.yaml")
-"""The study where there are no results to say one."""
 
 Web = Annotated[bool, typer.Option("--web", help="Serve a page, where there is no display.")]
 Port = Annotated[int, typer.Option(help="Of the page's stream.")]
@@ -63,12 +57,14 @@ def watch(
     web_port: WebPort = WEB_PORT,
 ) -> None:
     """Watch a run learn, in the viewer: bit for bit the run of the study."""
-    from upswing.study.asked_run import Asked, asked_run
+    from upswing.recordings.watched import watched_run
+    from upswing.study.asked_run import Asked
+    from upswing.study.project_files import along
 
     _quiet()
     folder = results_folder(results)
     asked = Asked(task, architecture, alpha, seed, steps)
-    spec = asked_run(_study(folder, config), run, asked)
+    spec = watched_run(folder, config, along(CONFIG), run, asked)
     from upswing.recordings.looking import page, window
     from upswing.recordings.pace import parse_speed
     from upswing.recordings.watch import watch_in, watch_into
@@ -141,15 +137,4 @@ def _quiet() -> None:
 
     It is read when Rerun is imported.
     """
-    os.environ.setdefault("RUST_LOG", "error,re_sdk=off,re_grpc_client=off")
-
-
-def _study(results: Path, config: Path | None) -> "Study":
-    """The study whose names are meant."""
-    from upswing.runs.study_file import read_study
-    from upswing.study.config import load
-    from upswing.study.paths import STUDY
-
-    if config is None and (results / STUDY).is_file():
-        return read_study(results)
-    return load(config or CONFIG)
+    os.environ.setdefault("RUST_LOG", "error,re_sdk=off,re_grpc_client=off,winit=error")

@@ -207,10 +207,12 @@ def sweep(
 ) -> None:
     """Run cells of the study under a group of other readings and keep the measures."""
     from upswing.runs.sweep import write_group
+    from upswing.study import jobs
 
     folder = results_folder(results, positional)
     asked, found = _sweep_named(name, folder, study, sweeps)
-    print(write_group(folder, asked, name, found, group))
+    code = jobs.sweep(found, asked).fingerprint
+    print(write_group(folder, asked, name, found, group, code))
 
 
 @panel.subcommand("finalists", cls=Job)

@@ -9,7 +9,7 @@ from upswing.cli.terminal import has_room, print_table, say
 from upswing.study.wording import listed
 
 if TYPE_CHECKING:
-    from upswing.analysis.compare import Comparison, Estimate, Estimates, OfACell
+    from upswing.analysis.compare import Comparison, Estimates, Interval, OfACell
 
 SHOWN = 10
 """Largest number of runs that are named of a long list."""
@@ -129,7 +129,7 @@ def _estimates(values: "Estimates", letters: Sequence[str]) -> str:
     return f"{', '.join(there)}; {listed(lacking)} {verb} no estimate of it"
 
 
-def _number(value: "Estimate | None") -> str:
+def _number(value: "Interval | None") -> str:
     if value is None:
         return "none"
     middle = _short(value.value)
@@ -138,7 +138,7 @@ def _number(value: "Estimate | None") -> str:
     return f"{middle} [{_short(value.low)}, {_short(value.high)}]"
 
 
-def _of_a_cell(measure: str, value: "Estimate | None") -> str:
+def _of_a_cell(measure: str, value: "Interval | None") -> str:
     """A median that less than half of the runs reached is infinite: it never was."""
     return _number(value).replace("∞", "never") if measure == STEP else _number(value)
 
