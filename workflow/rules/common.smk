@@ -54,7 +54,6 @@ try:
     STUDY, CLAIMS, SWEEPS = asked(
         workflow.configfiles,
         config,
-        claims=Path("config/claims.yaml"),
         sweeps=Path("config/readings.yaml"),
     )
     FILES = Targets(STUDY, CLAIMS, SWEEPS)

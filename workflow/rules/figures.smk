@@ -22,6 +22,7 @@ rule figure:
     params:
         cells=lambda wildcards: FILES.cells_of_figure(wildcards.figure),
         words=lambda wildcards: FILES.words_of_figure(wildcards.figure),
-        code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
+        shown=lambda wildcards: FILES.shown(FILES.cells_of_figure(wildcards.figure)),
+        code=lambda wildcards: FILES.code_of_figure(wildcards.figure),
     shell:
         "upswing figure {wildcards.figure:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

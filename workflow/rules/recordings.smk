@@ -15,6 +15,9 @@ rule comparison:
     params:
         cells=lambda wildcards: FILES.cells_of_comparison(wildcards.comparison),
         words=lambda wildcards: FILES.words_of_comparison(wildcards.comparison),
+        shown=lambda wildcards: FILES.shown(
+            FILES.cells_of_comparison(wildcards.comparison)
+        ),
         code=jobs.COMPARISON.fingerprint,
     shell:
         "upswing comparison {wildcards.comparison:q} {RESULTS:q} --study {STUDY_TEXT:q} > {log:q} 2>&1"

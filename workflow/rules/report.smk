@@ -19,6 +19,6 @@ rule report:
     benchmark:
         f"{RESULTS}/benchmarks/report.tsv"
     params:
-        code=jobs.page(FILES.shown_figures).fingerprint,
+        code=jobs.page(FILES.project_figures).fingerprint,
     shell:
         "upswing report {RESULTS:q} > {log:q} 2>&1"

@@ -18,7 +18,7 @@ from upswing.runs.files.ledger import (
 )
 from upswing.runs.files.ledger import Ledger, ledger_of_run, ledger_path, ledgers, read_ledger
 from upswing.runs.files.trajectory import read_metadata
-from upswing.study.claims import Claim, canonical_claims, load_claims
+from upswing.study.claims import Claim, canonical_claims, file_of_claims, load_claims
 from upswing.study.errors import BadInput
 from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.history_paths import ENTRIES, HISTORY
@@ -26,7 +26,6 @@ from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.paths import CELLS, CHECKSUMS, EVIDENCE, RUNS, STUDY, VERDICTS
 from upswing.study.spec import Spec
 
-CLAIMS = Path("config/claims.yaml")
 NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", ADOPTED, "report/snakemake.html")
 """What has no checksum: what a job said, what Snakemake measured or reports, runs and which of them were
 adopted (looked at singly)."""
@@ -52,12 +51,13 @@ class Diagnosis(NamedTuple):
     notes: list[str]  # what is no fault
 
 
-def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
+def examine(results: Path, claims: Path | None = None) -> Diagnosis:
     """Look at everything in a folder of results.
 
     Args:
         results: the folder.
-        claims: the file of claims; where the verdicts were judged by these, they are judged again.
+        claims: the file of claims; without, the study's own, or the thesis's. Where the verdicts were
+            judged by these, they are judged again.
 
     Raises:
         BadInput: the folder has no readable ``study.json``, so nobody can say what should be in it.
@@ -83,7 +83,7 @@ def examine(results: Path, claims: Path = CLAIMS) -> Diagnosis:
     notes = [*_versions(found), *_left_out(matrix)]
     if whole:
         named = {finding.path for finding in findings}
-        judged, note = _claims(results, claims)
+        judged, note = _claims(results, file_of_claims(matrix.study, claims))
         notes += note
         findings += [
             _damaged(results / table, what)

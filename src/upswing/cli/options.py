@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from upswing.study.claims import Claim
     from upswing.study.config import Study
 
 RESULTS = Path("results")
@@ -28,7 +31,14 @@ Positional = Annotated[
 ]
 """The folder as the last argument, which the rules of the workflow give."""
 
-Claims = Annotated[Path, typer.Option(metavar="FILE", help="The file of claims.")]
+Claims = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="The file of claims (default: the study's own, or config/claims.yaml).",
+        show_default=False,
+    ),
+]
 Sweeps = Annotated[Path, typer.Option(metavar="FILE", help="The file of sweeps.")]
 Templates = Annotated[Path, typer.Option(metavar="FOLDER", help="The templates of the page.")]
 StudyText = Annotated[str, typer.Argument(metavar="STUDY", help="The study in JSON.")]
@@ -41,7 +51,6 @@ AskedStudy = Annotated[
 ]
 """The study as the workflow asks for it, so that a job depends on no more of it than it needs."""
 
-CLAIMS = Path("config/claims.yaml")
 SWEEPS = Path("config/readings.yaml")
 TEMPLATES = Path("report")
 
@@ -51,6 +60,23 @@ def asked_study(text: str) -> "Study | None":
     from upswing.runs.study_file import parse_study
 
     return parse_study(text, "study") if text else None
+
+
+def claims_of(study: "Study", given: Path | None, checked: bool = True) -> "Mapping[str, Claim]":
+    """The claims that a study is judged by: those in the file that is given, its own, or the thesis's.
+
+    Args:
+        study: the study.
+        given: the file that was given, if any.
+        checked: whether cells and figures that they name must be there; a job of the workflow, which
+            has checked them, need not look again.
+
+    Raises:
+        BadInput: all that is wrong with them.
+    """
+    from upswing.study.claims import file_of_claims, load_claims
+
+    return load_claims(file_of_claims(study, given), study if checked else None)
 
 
 def results_folder(named: Path | None, positional: Path | None = None) -> Path:

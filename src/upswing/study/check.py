@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from upswing.study.claims import Claim, load_claims
+from upswing.study.claims import OF_THE_THESIS, Claim, file_of_claims, load_claims
 from upswing.study.config import Study, from_snakemake, load
 from upswing.study.errors import BadInput
 from upswing.study.results_folder import check_results
@@ -21,8 +21,13 @@ class Asked(NamedTuple):
     sweeps: Mapping[str, Sweep]
 
 
-def checked(config: Path, claims: Path, sweeps: Path) -> Study:
+def checked(config: Path, claims: Path | None, sweeps: Path) -> Study:
     """The study in ``config``; claims and sweeps are looked at where their files are there.
+
+    Args:
+        config: its configuration.
+        claims: the file of claims; without it, the study's own, or the thesis's.
+        sweeps: the file of sweeps.
 
     Raises:
         BadInput: every problem of any of the files.
@@ -31,8 +36,9 @@ def checked(config: Path, claims: Path, sweeps: Path) -> Study:
     study = _tried(problems, lambda: load(config))
     if study is not None:
         _tried(problems, lambda: check_results(study.results, str(config)))
-    if claims.exists():
-        _tried(problems, lambda: load_claims(claims, study))
+    judged = (claims or OF_THE_THESIS) if study is None else file_of_claims(study, claims)
+    if judged.exists():
+        _tried(problems, lambda: load_claims(judged, study))
     if sweeps.exists() and study is not None:
         _tried(problems, lambda: load_sweeps(sweeps, study))
     if problems or study is None:
@@ -41,7 +47,10 @@ def checked(config: Path, claims: Path, sweeps: Path) -> Study:
 
 
 def asked(
-    files: Sequence[str | Path], merged: Mapping[str, Any], claims: Path, sweeps: Path
+    files: Sequence[str | Path],
+    merged: Mapping[str, Any],
+    sweeps: Path,
+    claims: Path | None = None,
 ) -> Asked:
     """The same for a run of Snakemake: its configuration files, and what ``--config`` laid over them.
 
@@ -50,7 +59,8 @@ def asked(
     """
     problems: list[str] = []
     study = _tried(problems, lambda: from_snakemake(files, merged))
-    claimed = _tried(problems, lambda: load_claims(claims, study))
+    judged = (claims or OF_THE_THESIS) if study is None else file_of_claims(study, claims)
+    claimed = _tried(problems, lambda: load_claims(judged, study))
     swept = None
     if study is not None:
         _tried(problems, lambda: check_results(study.results, " + ".join(map(str, files))))

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import CLAIMS, SWEEPS, Claims, Sweeps
+from upswing.cli.options import SWEEPS, Claims, Sweeps
 from upswing.cli.panel import Panel
 
 panel = Panel("Run")
@@ -24,7 +24,7 @@ def check(
         Path,
         typer.Argument(help="The configuration.", autocompletion=_configurations),
     ] = Path("config/config.yaml"),
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
     sweeps: Sweeps = SWEEPS,
     begin: Annotated[
         bool,
