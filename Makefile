@@ -173,9 +173,10 @@ notebook: install ## Run the documentation's notebook on results, and store what
 	@$(BIN)/python -m tests.notebook results
 
 .PHONY: snakemake-report
-snakemake-report: install ## Snakemake's own report: every output with its rule, code and time
-	@$(SNAKEMAKE) --configfile config/config.yaml --report results/report/snakemake.html
-	@echo "Snakemake's report is at results/report/snakemake.html"
+snakemake-report: install ## Snakemake's own report: outputs, rules, code, times; CONFIG=config/mine.yaml of another study
+	@config="$(or $(CONFIG),config/config.yaml)"; results=$$($(BIN)/upswing check "$$config" --begin) && \
+		$(SNAKEMAKE) --configfile "$$config" --report "$$results/report/snakemake.html" && \
+		echo "Snakemake's report is at $$results/report/snakemake.html"
 
 .PHONY: lock
 lock: ## Renew requirements.lock from pyproject.toml
