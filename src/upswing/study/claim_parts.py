@@ -139,7 +139,8 @@ class Part(Strict):
         "`at_most` or `below`.",
     )
     among: dict[Measure, Bound] = Field(
-        default_factory=dict, description="Which runs are looked at, in the same way; without it, all."
+        default_factory=dict,
+        description="Which runs are looked at, in the same way; without it, all.",
     )
     statistic: Literal["mean", "median", "interquartile_mean"] = Field(
         default="mean", description="Of `location`."

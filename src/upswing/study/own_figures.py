@@ -44,6 +44,16 @@ def _measured(name: str) -> str:
 FigureName = Annotated[Name, AfterValidator(_own)]
 
 
+def _some(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    # Not `min_length`: of a list whose only item is wrong it would say that the list is empty as well.
+    if not values:
+        raise ValueError("must have at least 1")
+    return values
+
+
+some = AfterValidator(_some)
+
+
 class DeclaredPanel(Strict):
     """A panel of a figure, which is ready to be drawn of any cells."""
 
@@ -52,8 +62,9 @@ class DeclaredPanel(Strict):
         "steps, and the medians of the others; `measure`: every run as a dot, a row for each cell; "
         "`step-sizes`: the share of runs that succeed over α, a line for each architecture."
     )
-    cells: Annotated[tuple[CellName, ...], BeforeValidator(listed), once] = Field(
-        min_length=1, description="Ids of the cells that it shows, as `upswing check` lists them."
+    cells: Annotated[tuple[CellName, ...], BeforeValidator(listed), once, some] = Field(
+        json_schema_extra={"minItems": 1},
+        description="Ids of the cells that it shows, as `upswing check` lists them.",
     )
     title: Text = Field(default="", max_length=100, description="What stands over it.")
     measure: Annotated[str, AfterValidator(_measured)] | None = Field(
@@ -84,8 +95,10 @@ class DeclaredFigure(Strict):
 
     name: FigureName = Field(description="Its name, and that of its files.")
     title: Text = Field(min_length=1, max_length=100, description="Its heading.")
-    panels: Annotated[tuple[DeclaredPanel, ...], BeforeValidator(listed)] = Field(
-        min_length=1, max_length=12, description="Its panels, two in a row."
+    panels: Annotated[tuple[DeclaredPanel, ...], BeforeValidator(listed), some] = Field(
+        max_length=12,
+        json_schema_extra={"minItems": 1},
+        description="Its panels, two in a row.",
     )
     caption: Text = Field(
         default="",
