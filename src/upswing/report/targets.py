@@ -20,6 +20,7 @@ from upswing.study import jobs
 from upswing.study.claims import Claim, canonical_claims, cells_of_claims
 from upswing.study.history_paths import ENTRIES
 from upswing.study.ids import KNOWN_FILE, file_of
+from upswing.study.own_figures import DeclaredFigure
 from upswing.study.paths import (
     BEYOND,
     BOUND,
@@ -178,8 +179,10 @@ class Targets(TargetsOfSweeps):
         return [cell for cell in shown if cell in self.matrix.cells]
 
     def words_of_figure(self, name: str) -> str:
-        """By what a figure judges: its claims, and readings that they ask for."""
-        return self._words(claims_of(name, self.claims))
+        """By what a figure judges, its claims and readings that they ask for; and what it declares."""
+        own = own_of(self.study).get(name)
+        declared = own.model_dump_json() if isinstance(own, DeclaredFigure) else ""
+        return declared + self._words(claims_of(name, self.claims))
 
     def code_of_figure(self, name: str) -> str:
         """The fingerprint of the code that draws a figure."""
