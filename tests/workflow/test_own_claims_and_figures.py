@@ -72,7 +72,6 @@ def test_snakemakes_own_report_has_an_own_figure(claimed):
 def test_an_edit_makes_again_what_it_is_about(claimed):
     study, *_ = claimed
     claims, config = "config/mine-claims.yaml", "config/small.yaml"
-    assert study.plan() == {}
     judged = {"verdicts": 1, "history": 1, "report": 1}
     study.edit(claims, "at_least: 1.2", "at_least: 1.3")
     assert study.plan() == judged
@@ -138,7 +137,7 @@ def test_a_file_beside_the_configuration_draws_a_figure_and_is_followed(drawn):
     ("file", "old", "new", "expected"),
     [
         ("small.yaml", "figures: [rewards]", "figures: [reward]", "did you mean 'rewards'?"),
-        ("small.yaml", "figures: [rewards]", "figures: [fig05]", "balancing/random/alpha-none"),
+        ("small.yaml", "figures: [rewards]", "figures: [fig08]", "full-control/table/alpha-0.001"),
         ("figures/rewards.py", "FIGURE = ", "FIGUR = ", "rewards.py: FIGURE: must be a Declaration"),
         ("figures/rewards.py", "FIGURE = ", "FIGURE = 1 / 0  # ", "rewards.py: line 11: ZeroDivisionError"),
     ],
