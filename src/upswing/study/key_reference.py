@@ -34,8 +34,8 @@ class `Options`.
 
 CLAIMS_HEAD = """\
 `claims.yaml` says what each claim of the thesis measures and from where on it holds; its head explains
-the words. A file of your own, which `claims` names, has the same keys; `docs/extend/claim.md` is a worked
-example.
+the words. A file of your own, which `claims` names, has the same keys; `docs/extend/claim.md` is a
+worked example.
 
 """
 
