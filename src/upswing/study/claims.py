@@ -11,6 +11,7 @@ from pydantic import (
     BeforeValidator,
     Field,
     RootModel,
+    TypeAdapter,
     ValidationError,
     model_validator,
 )
@@ -34,7 +35,10 @@ def _shown_in(figure: Any) -> Any:
         )
     if isinstance(figure, int) and not FIRST_FIGURE <= figure <= LAST_FIGURE:
         raise ValueError(f"the thesis's figures of runs are {FIRST_FIGURE} to {LAST_FIGURE}")
-    return figure
+    return NAMED.validate_python(figure) if isinstance(figure, str) else figure
+
+
+NAMED = TypeAdapter[str](Name)
 
 
 FIRST_FIGURE, LAST_FIGURE = 5, 11
@@ -47,7 +51,7 @@ class Claim(Strict):
     section: Text = Field(
         default="", description="Where it is said: a section of the thesis; nothing of one's own."
     )
-    figure: Annotated[int | Name | None, BeforeValidator(_shown_in)] = Field(
+    figure: Annotated[int | str | None, BeforeValidator(_shown_in)] = Field(
         default=None,
         description="The figure that shows what decides it: 5 to 11 of the thesis, or the name of one "
         "of the study's own; none, where the key is left out.",

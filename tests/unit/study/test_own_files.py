@@ -8,6 +8,8 @@ import yaml
 from tests.paths import ROOT
 from upswing.study import jobs
 from upswing.study.check import asked, checked
+from upswing.study.claim_parts import Part
+from upswing.study.claims import Claim, load_claims
 from upswing.study.config import from_snakemake, load
 from upswing.study.errors import BadInput
 from upswing.study.own_figures import FigureFile
@@ -170,3 +172,40 @@ def test_a_figures_job_depends_on_its_file_and_on_what_it_imports(folder):
     assert more.fingerprint != first
     written(folder / "config/figures/mean_rewards.py", "def (")
     assert jobs.figure(figure).fingerprint != first  # what is wrong is said when it is run
+
+
+@pytest.mark.parametrize(
+    ("figure", "expected"),
+    [
+        (12, "the thesis's figures of runs are 5 to 11"),
+        (True, "must be a figure of the thesis, 5 to 11, or the name of one of the study's"),
+        (7.5, "must be a figure of the thesis, 5 to 11, or the name of one of the study's"),
+        ("Figure 7", "a name has small letters"),
+    ],
+)
+def test_what_is_no_figure_is_refused(folder, figure, expected):
+    path = written(folder / "config/own/claims.yaml", {"S1": {**CLAIM, "figure": figure}})
+    with pytest.raises(BadInput) as refused:
+        load_claims(path)
+    (line,) = refused.value.problems
+    assert "claims.yaml: S1.figure: " in line
+    assert expected in line
+
+
+def test_a_claim_leaves_out_what_it_has_not_and_a_seventeenth_is_as_good_as_the_others(folder):
+    thesis = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))
+    path = written(folder / "config/own/claims.yaml", {**thesis, "S17": CLAIM})
+    found = load_claims(path)
+    assert len(found) == len(thesis) + 1 == 17
+    last = found["S17"]
+    assert (last.figure, last.cell, last.section, last.check, last.note) == (None, None, "", "", "")
+
+
+def test_every_key_of_a_claim_is_in_the_reference():
+    reference = (ROOT / "config/README.md").read_text("utf-8")
+    section = reference[reference.index("## A claim,") : reference.index("## A sweep,")]
+    for model in (Claim, Part):
+        for key, field in model.model_fields.items():
+            assert f"| `{key}` |" in section
+            assert field.description
+            assert field.description in section
