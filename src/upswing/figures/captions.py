@@ -5,6 +5,9 @@ from typing import TYPE_CHECKING
 from upswing.study.wording import listed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from upswing.figures.decided import Decided
     from upswing.figures.three_and_all import Shown
 
 ORDERED_BY_FALLS = (
@@ -34,19 +37,24 @@ def phases_named(shown: "Shown") -> str:
 
 def what_decides(shown: "Shown") -> str:
     """What the panels below the rows show, and of which claims the study lacks cells."""
+    return claims_decided(shown.decided, shown.lacking)
+
+
+def claims_decided(decided: "Sequence[Decided]", lacking: "Sequence[str]") -> str:
+    """What panels that decide claims show, and of which claims the study lacks cells."""
     words = ""
-    if shown.decided:
-        names = list(dict.fromkeys(one.claim for one in shown.decided))
+    if decided:
+        names = list(dict.fromkeys(one.claim for one in decided))
         words = (
             f" Below, what decides {listed(names)}: every run as a dot where each is measured, and at "
             "the right the estimate with its 95 % interval. A claim holds in the shaded part, and "
             "partly up to the dashed line."
         )
-        if any(row.beside for one in shown.decided for row in one.rows):
+        if any(row.beside for one in decided for row in one.rows):
             words += (
                 " Pale dots with a hollow estimate are other step sizes, for comparison: they decide "
                 "nothing."
             )
-    if shown.lacking:
-        words += f" Of {listed(shown.lacking)} this study has not all cells."
+    if lacking:
+        words += f" Of {listed(lacking)} this study has not all cells."
     return words

@@ -17,7 +17,7 @@ def draw(results: "Results") -> "Drawing":
     """Panels for the first task of each way of judging: medians of cells, with their quartiles."""
     import numpy as np
 
-    from upswing.analysis.colours import colour
+    from upswing.analysis.colours import colour, label, name_of
     from upswing.figures import panels
     from upswing.figures.interaction import Curves, remember
     from upswing.figures.style import dashes, grid_of_panels
@@ -66,9 +66,7 @@ def draw(results: "Results") -> "Drawing":
                 panel.plot(last, middle, dashes(cell), color=shade, linewidth=1.4)
                 panel.fill_between(last, low, high, color=shade, alpha=0.12, linewidth=0)
                 words = (
-                    CellId.parse(cell).label
-                    if name == "best α"
-                    else CellId.parse(cell).architecture
+                    label(cell) if name == "best α" else name_of(CellId.parse(cell).architecture)
                 )
                 ends.append((float(middle[-1]), words, shade))
                 if results.cells[cell].alpha is not None:

@@ -22,7 +22,7 @@ def draw(results: "Results") -> "Drawing":
     """A row for each cell: a dot a run, and the share of runs that succeed with its interval."""
     import numpy as np
 
-    from upswing.analysis.colours import colour, of_text
+    from upswing.analysis.colours import colour, label, of_text
     from upswing.figures import panels
     from upswing.figures.interaction import Dots, remember
     from upswing.figures.lengths import in_steps
@@ -65,7 +65,7 @@ def draw(results: "Results") -> "Drawing":
                 va="center",
                 color=of_text(shade),
             )
-        left.set_yticks(range(len(cells)), [CellId.parse(cell).label for cell in cells])
+        left.set_yticks(range(len(cells)), [label(cell) for cell in cells])
         left.set_ylim(len(cells) - 0.4, -0.6)
         left.set_title(f"{task}: every run")
         right.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
@@ -94,15 +94,15 @@ def draw(results: "Results") -> "Drawing":
 
 def _best(results: "Results", task: str, cells: "Sequence[str]") -> str:
     """In how many cells of a task that learn most runs succeed, and which of them is the best."""
+    from upswing.analysis.colours import label
     from upswing.figures.success_share import share
-    from upswing.study.ids import CellId
 
     if not cells:
         return f"in {task} none learns"
     found = {cell: share(results, cell) for cell in cells}
     best = max(found, key=lambda cell: found[cell].value if found[cell].of else -1.0)
     most = sum(one.value > HALF for one in found.values())
-    words = f"{found[best].successes} of {found[best].of} with {CellId.parse(best).label}"
+    words = f"{found[best].successes} of {found[best].of} with {label(best)}"
     return (
         f"in {task} most runs succeed in {most} of {len(cells)} cells that learn, at best {words}"
     )

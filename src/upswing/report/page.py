@@ -8,6 +8,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
+from upswing.analysis.colours import shown_as
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -22,7 +23,7 @@ from upswing.report.glossary import glossary
 from upswing.report.headline import headline
 from upswing.report.history_shown import history
 from upswing.report.interactive import embedded, endings, shown_figures
-from upswing.report.judged import counts, judged
+from upswing.report.judged import counts, judged, point_at_own
 from upswing.report.kept import kept
 from upswing.report.pendulums import body_of_bound, lengths, system
 from upswing.report.pictures import data_of
@@ -124,6 +125,9 @@ def page_of(
     by_name = {row["cell"]: row for row in cells}
     found = findings(by_name, verdicts)
     drawn_figures = shown_figures(results)
+    point_at_own(verdicts, drawn_figures, study.figure_names)
+    with shown_as(study, [spec.architecture.name for spec in there.adopted]):
+        numbers, animation = step_size_numbers(cells, study), _animation(results)
     here = [row for row in verdicts if row["verdict"] != NOT_HERE]
     empirical = [row for row in here if not row["check"]]
     shown = {
@@ -131,7 +135,7 @@ def page_of(
         "adopted": [spec.architecture for spec in there.adopted],
         "seeds_of_a_cell": f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0]),
         "solving": [row for row in cells if study.tasks[row["task"]].judged_by == "upright"],
-        "animation": _animation(results),
+        "animation": animation,
         "findings": found,
         "headline": headline(by_name, found, len(empirical), len(ours)),
         "glossary": glossary(templates),
@@ -139,7 +143,7 @@ def page_of(
         "lent": lent,
         "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
         "registered": registered(results, study),
-        "exploratory": exploratory(templates),
+        "exploratory": {} if study.claims else exploratory(templates),
         "over": over_readings(results, templates, verdicts, study),
         **system(study, templates),
         "cells": cells,
@@ -147,14 +151,14 @@ def page_of(
         "cell": by_name,
         "runs": runs,
         "ends": endings(table, study),
-        "interactive": embedded(drawn_figures, step_size_numbers(cells, study), study),
+        "interactive": embedded(drawn_figures, numbers, study),
         "verdicts": verdicts,
         "counts": counts(empirical),
         "judged": len(empirical),
         "new_runs": len(ours),
         "checks": [row for row in here if row["check"]],
         "figures": {figure["name"]: figure for figure in drawn_figures},
-        "own_figures": [name for name in study.figures if name not in figures.NAMES],
+        "own_figures": [name for name in study.figure_names if name not in figures.NAMES],
         "beyond": _beyond(results, chapter_at),
         "readings": _readings(study.readings),
         "swept": swept(results, study),
