@@ -102,7 +102,8 @@ def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = N
     Args:
         name: the figure's name, or its number in the thesis.
         results: the folder of results, read for drawing.
-        claims: all claims; a figure of the thesis shows what decides its own. Without: of none.
+        claims: all claims; a figure of the thesis shows what decides its own. Without, or where the
+            study judges nothing: of none.
 
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
@@ -112,7 +113,8 @@ def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = N
     from upswing.figures.style import save
 
     declared = FIGURES[name]
-    own = (claims_of(name, claims or {}),) if declared.number else ()
+    judged = (claims or {}) if results.study.judges else {}
+    own = (claims_of(name, judged),) if declared.number else ()
     drawing = load("figures", name).draw(results, *own)
     if not isinstance(drawing, Drawing):
         raise BadInput([f"{source_of('figures', name)}: draw: must return a panels.Drawing"])

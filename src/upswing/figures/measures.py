@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from typing import NamedTuple
 
-from upswing.figures.lengths import in_steps
+from upswing.figures.lengths import end_of
 from upswing.study.claim_parts import Part
 from upswing.study.physical import THESIS_TIME_STEP
 from upswing.study.task import Task
@@ -58,10 +58,8 @@ def axis_of(part: Part, tasks: Collection[Task] = ()) -> AxisOf:
         pair = (str(part.measure), str(part.per))
         words = OF_SUMS.get(pair, f"{pair[0]} / {pair[1]} [%]".replace("_", " "))
         return AxisOf(words, PERCENT, (0.0, 100.0), is_count=False)
-    from upswing.runs.metrics import END
-
     name = part.measure or next(iter(part.where), "")
-    words = WORDS.get(name, name.replace("_", " ")).format(end=in_steps(END, tasks))
+    words = WORDS.get(name, name.replace("_", " ")).format(end=end_of(tasks))
     if name in IN_STEPS and any(task.pendulum.time_step != THESIS_TIME_STEP for task in tasks):
         words += " of 5 ms"
     if part.paired:
