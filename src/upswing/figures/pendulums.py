@@ -24,6 +24,7 @@ def draw(results: "Results") -> "Drawing":
     """Over the constant: runs that stand, when they are stable, arrivals too fast, and the bound."""
     import numpy as np
     import pandas as pd
+    from matplotlib.ticker import LogLocator, NullFormatter
 
     from upswing.analysis.outcomes import outcomes
     from upswing.analysis.over_pendulums import differing, lines
@@ -83,7 +84,9 @@ def draw(results: "Results") -> "Drawing":
     for panel in (stand, too_fast):
         panel.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100))
     stable.set_yscale("log")
+    stable.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     stable.yaxis.set_major_formatter("{x:,g}")
+    stable.yaxis.set_minor_formatter(NullFormatter())
     stand.set_title("Runs that stand at the end [%]")
     stable.set_title("First stable window, median [s]")
     too_fast.set_title("Arrivals too fast to be stopped, last fifth [%]")

@@ -5,6 +5,7 @@ verdicts and the thesis's author then says nothing, and is left out.
 """
 
 from collections.abc import Mapping, Sequence
+from pathlib import PurePosixPath
 from typing import Any
 
 from upswing.analysis import statistics
@@ -14,6 +15,7 @@ from upswing.report.headline import Headline
 from upswing.report.words import alpha, capital
 from upswing.study.claim_parts import NOT_HERE
 from upswing.study.config import Study, narrowed
+from upswing.study.paths import BEYOND
 from upswing.study.wording import listed
 
 Row = dict[str, Any]
@@ -37,8 +39,17 @@ def shown_verdicts(verdicts: Sequence[Row], study: Study) -> list[Row]:
 
 
 def is_own(study: Study, verdicts: Sequence[Row]) -> bool:
-    """Whether the page is about a study of one's own, given the verdicts that it shows."""
-    return bool(study.title) or not verdicts
+    """Whether the page is about a study of one's own, given the verdicts that it shows.
+
+    The study beyond the thesis, which has a folder of that name, is the thesis's chapter.
+    """
+    return bool(study.title) or (not verdicts and not is_chapter(study))
+
+
+def is_chapter(study: Study) -> bool:
+    """Whether a study is the chapter beyond the thesis: changes to it, in the folder for them."""
+    changes = any(one.title for one in study.experiments)
+    return changes and not study.title and PurePosixPath(study.results).name == BEYOND
 
 
 def title_of(study: Study) -> str:

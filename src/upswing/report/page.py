@@ -28,6 +28,7 @@ from upswing.report.judged import counts, judged
 from upswing.report.kept import kept
 from upswing.report.own import (
     counted,
+    is_chapter,
     is_own,
     own_findings,
     own_headline,
@@ -153,6 +154,7 @@ def page_of(
         "animation": "" if own else _animation(results),
         "findings": found,
         "own": own,
+        "chapter": is_chapter(study),
         "commands": commands(study, CONFIGURATIONS),
         "counted": told,
         "headline": own_headline(study, told)

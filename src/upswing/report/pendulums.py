@@ -146,7 +146,7 @@ def drawn_for(svg: str, shown: Sequence[Shown]) -> str:
 def length_of_a_step(study: Study) -> str:
     """How long a step is, in words: ``5 ms``; where tasks differ ``5 or 10 ms``."""
     lengths = sorted({float(task.pendulum.time_step) for task in study.tasks.values()})
-    return f"{' or '.join(f'{1000 * one:g}' for one in lengths)} ms"
+    return f"{listed([f'{1000 * one:g}' for one in lengths], 'or')} ms"
 
 
 class Choices(NamedTuple):
@@ -179,10 +179,12 @@ def system(whole: Study, templates: Path) -> dict[str, Any]:
     """What the page is given of what moves in a study; ``templates`` has the folder of drawings."""
     study = narrowed(whole)
     found = pendulums(study)
+    sole = {one.accelerations for one in found}
     kinds_of = {task.judged_by for task in study.tasks.values()}
     drawings = {path.stem: path for path in sorted((templates / "drawings").glob("*.svg"))}
     return {
         "pendulums": found,
+        "accelerates": sole.pop() if len(sole) == 1 else "",
         "choices": choices(study),
         "length_of_a_step": length_of_a_step(study),
         "lengths": lengths(study),
