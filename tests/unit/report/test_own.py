@@ -2,26 +2,20 @@
 
 import re
 from copy import deepcopy
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from tests.paths import ROOT
+from tests.unit.report.small_pages import page_of_small
 from tests.unit.report.test_pendulums import study_of, text_of
-from upswing.analysis.aggregate import write_tables
-from upswing.analysis.verdicts import write_verdicts
-from upswing.figures import draw, drawable
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum
 from upswing.report.command import commands, configuration_of
 from upswing.report.glossary import glossary
 from upswing.report.own import counted, is_own, own_words, shown_verdicts, title_of
-from upswing.report.page import page_of
 from upswing.report.pendulums import length_of_a_step, lengths, pendulums
-from upswing.runs.results import Results
-from upswing.runs.study_file import canonical, write_study
-from upswing.runs.train import train
-from upswing.study.claims import load_claims
 from upswing.study.config import load, narrowed, validated
 from upswing.study.matrix import Matrix
 
@@ -36,7 +30,10 @@ OWN = {
         },  # as if inherited: nothing names it
         "swing-up": {"kind": "full-control", "steps": 6_000, "pendulum": STRONG},
     },
-    "architectures": {"table": {"learner": "table"}, "networks-5": {"learner": "networks"}},
+    "architectures": {
+        "table": {"learner": "table"},
+        "networks-5": {"learner": "networks", "hidden": [5]},
+    },
     "experiments": [{"tasks": ["swing-up"], "architectures": ["table"], "alphas": [0.1, 0.01]}],
 }
 SEVERAL = {
@@ -58,24 +55,19 @@ SMOKE = {
 }
 
 
-def run(content, folder):
-    """Run a study, draw its figures and return its page."""
-    study, claims = validated({"study": content}), load_claims(Path("config/claims.yaml"))
-    matrix = Matrix(study)
-    write_study(canonical(study), folder)
-    for spec in matrix.cells.values():
-        train(spec, folder)
-    write_tables(folder, matrix)
-    results = Results(folder)
-    write_verdicts(results, claims, {})
-    for name in drawable(matrix.cells, asked=study.figures):
-        draw(name, results, claims)
-    return page_of(folder, Path("report")).html
+STUDIES = {"own": OWN, "several": SEVERAL, "smoke": SMOKE}
 
 
-@pytest.fixture(scope="module", params=[OWN, SEVERAL, SMOKE], ids=["own", "several", "smoke"])
-def page(request, tmp_path_factory):
-    return request.param, run(request.param, tmp_path_factory.mktemp("own"))
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """The pages of these studies, each made when it is first asked for."""
+    return cache(lambda name: page_of_small(STUDIES[name], tmp_path_factory.mktemp(name)))
+
+
+@pytest.fixture(params=STUDIES)
+def page(request, pages):
+    """One of the studies, and its page."""
+    return STUDIES[request.param], pages(request.param)
 
 
 OF_CLAIMS = (
@@ -92,15 +84,13 @@ def test_it_says_nothing_of_claims_that_it_does_not_judge(page):
         assert words not in said, words
     assert "--results results/strong" in said
     assert f"<h1>{title_of(validated({'study': content}))}</h1>" in html
-    assert not re.search(
-        r"\{[{%]|[%}]\}", re.sub(r"<script.*?</script>", "", html, flags=re.DOTALL)
-    )
+    assert not re.search(r"\{%|%\}", said)
 
 
 def test_every_link_within_it_leads_somewhere(page):
     _, html = page
     ids = set(re.findall(r'\bid="([^"]+)"', html))
-    assert {link for link in re.findall(r'href="#([^"]+)"', html)} <= ids
+    assert set(re.findall(r'href="#([^"]+)"', html)) <= ids
 
 
 def test_what_came_out_is_a_row_for_each_setting_unless_nothing_is_judged(page):
@@ -116,11 +106,11 @@ def test_what_came_out_is_a_row_for_each_setting_unless_nothing_is_judged(page):
     assert "This page judges nothing" not in html
 
 
-def test_its_pendulum_is_its_own_and_no_inherited_task_is_in_it(tmp_path):
+def test_its_pendulum_is_its_own_and_no_inherited_task_is_in_it(pages):
     study = validated({"study": OWN})
     assert list(narrowed(study).tasks) == ["swing-up"]
     assert list(narrowed(study).architectures) == ["table"]
-    said = text_of(run(OWN, tmp_path))
+    said = text_of(pages("own"))
     (one,) = pendulums(narrowed(study))
     speed = highest_stoppable_speed(Pendulum(length=0.4, accelerations=(-20, -10, 0, 10, 20)))
     assert one.stoppable == speed
@@ -131,8 +121,8 @@ def test_its_pendulum_is_its_own_and_no_inherited_task_is_in_it(tmp_path):
     assert "balancing" not in said.replace("without a fall when balancing", "")
 
 
-def test_the_figure_over_pendulums_says_what_can_be_stopped(tmp_path):
-    html = run(SEVERAL, tmp_path)
+def test_the_figure_over_pendulums_says_what_can_be_stopped(pages):
+    html = pages("several")
     assert "Two carts." in html
     said = text_of(html)
     assert (
