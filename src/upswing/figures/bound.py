@@ -86,12 +86,13 @@ def draw(results: "Results") -> "Drawing":
         "it pushes towards upright whatever the velocity, and what hangs stays below; from "
         f"γ = {needed:.3f} on it swings up from there"
     )
+    since = f"{needed:.3f}"
     if len(swings) and swings.iloc[-1]:  # another pendulum may be lighter to move
-        low = "what hangs is swung up already"
+        low, since = "what hangs is swung up already", THESIS
     caption = (
         "Left: the least time to upright from every state; the white line is the border of the states "
         "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "
         f"best for the discounted reward, by value iteration. With the thesis's γ = {THESIS} {low}."
     )
-    alt = f"The best policy for the discounted reward swings up from hanging from γ = {needed:.3f} on."
+    alt = f"The best policy for the discounted reward swings up from hanging from γ = {since} on."
     return panels.Drawing(figure, caption, [], alt)
