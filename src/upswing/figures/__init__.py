@@ -125,7 +125,8 @@ def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = N
     Args:
         name: the figure's name, or its number in the thesis.
         results: the folder of results, read for drawing.
-        claims: all claims; a figure shows what decides those that name it. Without: of none.
+        claims: all claims; a figure shows what decides those that name it. Without, or where the study
+            judges nothing: of none.
 
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
@@ -134,7 +135,7 @@ def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = N
     name = named(name, [*FIGURES, *own])
     from upswing.figures.style import save
 
-    named_by = claims_of(name, claims or {})
+    named_by = claims_of(name, (claims or {}) if results.study.judges else {})
     with shown_as(results.study, results.architectures):
         if name in own:
             declared, drawing = _drawn(own[name], results, named_by)

@@ -1,7 +1,9 @@
 """Sentences that several captions share."""
 
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from upswing.study.task import Task
 from upswing.study.wording import listed
 
 if TYPE_CHECKING:
@@ -22,6 +24,17 @@ ORDERED_BY_UPRIGHT = (
     "The worst, the median and the best run by their share of upright steps, |φ| ≤ 20°, in the last "
     "fifth (ties: mean reward, seed)"
 )
+
+
+def succeeding(tasks: Iterable[Task], when: Mapping[str, str]) -> str:
+    """What a run does that succeeds, for the ways in which these tasks are judged.
+
+    Args:
+        tasks: those that are shown.
+        when: the words for ``falls`` and for ``upright``.
+    """
+    judged_by = {task.judged_by for task in tasks}
+    return ", or ".join(words for name, words in when.items() if name in judged_by)
 
 
 def phases_named(shown: "Shown") -> str:

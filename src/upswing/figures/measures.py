@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from typing import NamedTuple
 
-from upswing.figures.lengths import in_steps
+from upswing.figures.lengths import end_of
 from upswing.study.claim_parts import Part
 from upswing.study.physical import THESIS_TIME_STEP
 from upswing.study.task import Task
@@ -67,9 +67,7 @@ def axis_of(part: Part, tasks: Collection[Task] = ()) -> AxisOf:
 
 def described(name: str, tasks: Collection[Task] = ()) -> AxisOf:
     """The axis of a measure of each run, of these tasks."""
-    from upswing.runs.metrics import END
-
-    words = WORDS.get(name, name.replace("_", " ")).format(end=in_steps(END, tasks))
+    words = WORDS.get(name, name.replace("_", " ")).format(end=end_of(tasks))
     if name in IN_STEPS and any(task.pendulum.time_step != THESIS_TIME_STEP for task in tasks):
         words += " of 5 ms"
     if name.endswith("_share") or name.startswith("upright_"):

@@ -24,11 +24,11 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.analysis.colours import colour, label, of_text
     from upswing.figures import panels
+    from upswing.figures.captions import succeeding
     from upswing.figures.interaction import Dots, remember
-    from upswing.figures.lengths import in_steps
+    from upswing.figures.lengths import end_of
     from upswing.figures.style import WIDTH, subplots
     from upswing.figures.success_share import share
-    from upswing.runs.metrics import END
     from upswing.runs.success import SUCCESS
     from upswing.study.ids import CellId
 
@@ -77,16 +77,20 @@ def draw(results: "Results") -> "Drawing":
             right.set_title("Runs without a fall in the last fifth [%]")
         else:
             left.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
-            left.set_xlabel(f"upright in the last {in_steps(END, [results.task(cells[0])])} [%]")
+            left.set_xlabel(f"upright in the last {end_of([results.task(cells[0])])} [%]")
             right.set_title(f"Runs upright for {100 * SUCCESS:.0f} % of them [%]")
         for axes in (left, right):
             axes.grid(visible=False, axis="y")
     what = "; ".join(seen)
-    end = in_steps(END, [spec.task for spec in results.cells.values()])
+    every = [spec.task for spec in results.cells.values()]
+    stands = f"are upright for {100 * SUCCESS:.0f} % of their last {end_of(every)}"
+    done = {
+        "falls": "balance without a fall in their last fifth",
+        "upright": f"stand at the end ({stands})",
+    }
     caption = (
         "Each row is a cell. Left: every run as a dot, its seeds from top to bottom. Right: the share "
-        "of runs that balance without a fall in their last fifth, or stand at the end (are upright for "
-        f"{100 * SUCCESS:.0f} % of their last {end}); the bar is its 95 % interval (Wilson). "
+        f"of runs that {succeeding(every, done)}; the bar is its 95 % interval (Wilson). "
         f"What to see: {what}."
     )
     return panels.Drawing(figure, caption, [], f"{what[:1].upper()}{what[1:]}.")

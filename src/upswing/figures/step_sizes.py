@@ -14,10 +14,10 @@ FIGURE = Declaration("What the step size decides", "", ("C3", "C6", "C8", "C11")
 def draw(results: "Results") -> "Drawing":
     """A panel for each task: the share of runs that succeed over α, a line for each architecture."""
     from upswing.figures import panels, told
-    from upswing.figures.lengths import in_steps
+    from upswing.figures.captions import succeeding
+    from upswing.figures.lengths import end_of
     from upswing.figures.over_alpha import success_over_alpha, title_of
     from upswing.figures.style import grid_of_panels
-    from upswing.runs.metrics import END
     from upswing.runs.success import SUCCESS
 
     curves: dict[tuple[str, str], dict[float, str]] = {}
@@ -37,11 +37,14 @@ def draw(results: "Results") -> "Drawing":
         panel.set_visible(False)
     several = {key: cells for key, cells in curves.items() if key[0] in shown and len(cells) > 1}
     seen = "; ".join(told.over_alpha(results, *key, cells) for key, cells in several.items())
-    end = in_steps(END, [spec.task for spec in results.cells.values()])
+    every = [spec.task for spec in results.cells.values()]
+    done = {
+        "falls": "balancing without a fall in the last fifth",
+        "upright": f"full control upright for {100 * SUCCESS:.0f} % of the last {end_of(every)}",
+    }
     caption = (
         "The share of runs that succeed, with its 95 % interval (Wilson), over the step size α: "
-        "balancing without a fall in the last fifth, or full control upright for "
-        f"{100 * SUCCESS:.0f} % of the last {end}. Architectures stand a little apart, and "
+        f"{succeeding(every, done)}. Architectures stand a little apart, and "
         f"modular ones are hollow and dashed.{f' What to see: {seen}.' if seen else ''}"
     )
     return panels.Drawing(figure, caption, [], f"{seen[0].upper()}{seen[1:]}." if seen else "")

@@ -170,7 +170,7 @@ class Targets(TargetsOfSweeps):
         """What a figure is drawn from: its own cells and those of its claims, or whatever there is."""
         runs = self.of_cells(self.cells_of_figure(name))
         adopted = [] if self.declared[name].cells else self.adopted()
-        tiles = self.tiles if _asks_for_tiles(claims_of(name, self.claims)) else []
+        tiles = self.tiles if _asks_for_tiles(self._decided_by(name)) else []
         return [*runs, *adopted, *tiles, *self._below(*self.declared[name].tables)]
 
     def cells_of_figure(self, name: str) -> list[str]:
@@ -178,7 +178,7 @@ class Targets(TargetsOfSweeps):
         declared = self.declared[name]
         if not declared.cells:
             return list(self.matrix.cells)
-        of_claims = (cell for _, cell in cells_of_claims(claims_of(name, self.claims)))
+        of_claims = (cell for _, cell in cells_of_claims(self._decided_by(name)))
         shown = dict.fromkeys((*declared.cells, *declared.beside, *of_claims))
         return [cell for cell in shown if cell in self.matrix.cells]
 
@@ -186,7 +186,7 @@ class Targets(TargetsOfSweeps):
         """By what a figure judges, its claims and readings that they ask for; and what it declares."""
         own = own_of(self.study).get(name)
         declared = own.model_dump_json() if isinstance(own, DeclaredFigure) else ""
-        return declared + self._words(claims_of(name, self.claims))
+        return declared + self._words(self._decided_by(name))
 
     def code_of_figure(self, name: str) -> str:
         """The fingerprint of the code that draws a figure."""
@@ -200,6 +200,10 @@ class Targets(TargetsOfSweeps):
     @cached_property
     def _shown(self) -> dict[str, Shown]:
         return shown_of(self.study)
+
+    def _decided_by(self, name: str) -> dict[str, Claim]:
+        """The claims that a figure decides: of a study that judges nothing, none."""
+        return claims_of(name, self.claims if self.study.judges else {})
 
     @cached_property
     def judged_cells(self) -> list[str]:

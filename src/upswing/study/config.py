@@ -88,6 +88,20 @@ class Search(Strict):
 class Study(Strict):
     """A study: everything `make reproduce` computes."""
 
+    title: Text = Field(
+        default="",
+        max_length=150,
+        description="The title of its page: what the study asks. Without one, what learns at what.",
+    )
+    about: Text = Field(
+        default="",
+        max_length=1_500,
+        description="What its page says first: what differs, and what to look at.",
+    )
+    judges: bool = Field(
+        default=True,
+        description="Whether its page judges claims; few seeds and short runs say too little for that.",
+    )
     results: Annotated[str, AfterValidator(_folder)] = Field(
         default="results", min_length=1, max_length=1_000, description="Folder of the results."
     )
@@ -131,9 +145,26 @@ class Study(Strict):
         return tuple(map(figure_name, self.figures))
 
 
+def narrowed(study: Study) -> Study:
+    """A study with no more tasks and architectures than its experiments name; tasks in their order.
+
+    One that extends another has all of its tasks, and need not run any of them.
+    """
+    tasks = dict.fromkeys(name for one in study.experiments for name in one.tasks)
+    names = {name for one in study.experiments for name in one.architectures}
+    return study.model_copy(
+        update={
+            "tasks": {name: study.tasks[name] for name in tasks},
+            "architectures": {
+                name: one for name, one in study.architectures.items() if name in names
+            },
+        }
+    )
+
+
 def pendulum_of_bound(study: Study) -> PendulumOptions:
     """The pendulum that the bound of a study is about: that of its first task of full control."""
-    upright = (task for task in study.tasks.values() if task.judged_by == "upright")
+    upright = (task for task in narrowed(study).tasks.values() if task.judged_by == "upright")
     return next((task.pendulum for task in upright), PendulumOptions())
 
 

@@ -41,7 +41,7 @@ def verdicts(
     found = OwnRuns(folder, asked_study(study))
     judged = claims_of(found.study, claims)
     over, _ = over_readings(folder, templates, judged)
-    print_verdicts(write_verdicts(found, judged, over), details)
+    print_verdicts(write_verdicts(found, judged, over), details, found.study.judges)
 
 
 def _figures() -> list[str]:
