@@ -15,6 +15,9 @@ INSTALLED := $(VENV)/.installed
 run = results=$$($(BIN)/upswing check "$(1)" --begin) && $(SNAKEMAKE) --configfile "$(1)"$(if $(2), -- $(2)) && $(call end,$(3))
 end = $(if $(value NOTE),$(BIN)/upswing history noted "$$results" && )echo "The report is at $$results/report/index.html$(1)"
 
+# Exactly what a lock file (1) lists, each file with its checksum; options (2).
+locked = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes $(2) -r $(1)
+
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
@@ -42,11 +45,13 @@ $(INSTALLED): $(VENV)/.locked pyproject.toml | writable
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/.locked: requirements.lock requirements-slurm.lock | writable
+$(VENV)/.locked: requirements.lock requirements-gpu.lock requirements-slurm.lock | writable
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target $(VENV)/slurm -r requirements-slurm.lock
+	$(call locked,requirements.lock)
+	@# pip takes torch's CPU build where the index has it. Any other for Linux cannot be imported without GPU libraries.
+	@$(BIN)/python -c "import torch" 2> /dev/null || { echo "This torch needs gigabytes of GPU libraries; README.md says how to do without"; $(call locked,requirements-gpu.lock); }
+	$(call locked,requirements-slurm.lock,--target $(VENV)/slurm)
 	@touch $@
 
 .PHONY: reproduce
@@ -178,16 +183,12 @@ snakemake-report: install ## Snakemake's own report: every output with its rule,
 	@echo "Snakemake's report is at results/report/snakemake.html"
 
 .PHONY: lock
-lock: ## Renew requirements.lock from pyproject.toml
-	$(PYTHON) -m venv --clear .lock-venv
-	.lock-venv/bin/python -m pip install --quiet '.[dev,docs]'
-	{ echo "# Exact versions of everything that upswing uses. Renew with: make lock"; \
-	  .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | sed 's/+cpu$$//'; } > requirements.lock
-	.lock-venv/bin/python -m pip install --quiet '.[slurm]'
-	{ sed -n '/^#/p' requirements-slurm.lock; .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | \
-	  sed 's/+cpu$$//' | grep -vxFf requirements.lock; } > requirements-slurm.lock.new
-	mv requirements-slurm.lock.new requirements-slurm.lock
-	rm -rf .lock-venv build
+lock: install ## Renew the lock files from pyproject.toml, for all platforms; NEWEST=1 takes the newest versions
+	@CPU_BUILDS="$(CPU_BUILDS)" NEWEST="$(NEWEST)" $(BIN)/python -m tests.portability.lock
+
+.PHONY: portability
+portability: install ## Renew the documentation's table of where the lock files can be installed (needs an index)
+	@$(BIN)/python -m tests.portability.page
 
 .PHONY: clean
 clean: ## Remove results and what Snakemake remembers of them; what was found before, the history, stays
