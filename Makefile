@@ -16,7 +16,8 @@ run = results=$$($(BIN)/upswing check "$(1)" --begin) && $(SNAKEMAKE) --configfi
 end = $(if $(value NOTE),$(BIN)/upswing history noted "$$results" && )echo "The report is at $$results/report/index.html$(1)"
 
 # Exactly what a lock file (1) lists, each file with its checksum; options (2).
-locked = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes $(2) -r $(1)
+locked = $(PIP) install --no-deps --require-hashes $(2) -r $(1)
+PIP = $(BIN)/python -m pip --quiet --disable-pip-version-check
 
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
@@ -48,10 +49,16 @@ $(INSTALLED): $(VENV)/.locked pyproject.toml | writable
 $(VENV)/.locked: requirements.lock requirements-gpu.lock requirements-slurm.lock | writable
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
+	@# torch first: its CPU build where there is one. Asked for checksums, pip prefers a file whose checksum the index
+	@# tells, and a folder tells none; so it chooses without, and what it chose is then checked like everything else.
+	sed -n '/^torch==/,/[^\\]$$/p' requirements.lock > $(VENV)/torch.lock
+	$(PIP) download --no-deps --dest $(VENV)/torch "$$(grep -o '^torch==[^ ]*' $(VENV)/torch.lock)"
+	$(call locked,$(VENV)/torch.lock,--no-index --find-links $(VENV)/torch)
 	$(call locked,requirements.lock)
-	@# pip takes torch's CPU build where the index has it. Any other for Linux cannot be imported without GPU libraries.
-	@$(BIN)/python -c "import torch" 2> /dev/null || { echo "This torch needs gigabytes of GPU libraries; README.md says how to do without"; $(call locked,requirements-gpu.lock); }
+	@# Any other build for Linux cannot even be imported without libraries for a GPU.
+	@$(BIN)/python -c "import torch" 2> /dev/null || { echo "This torch needs gigabytes of GPU libraries. README.md says how to do without." >&2; $(call locked,requirements-gpu.lock); }
 	$(call locked,requirements-slurm.lock,--target $(VENV)/slurm)
+	@rm -r $(VENV)/torch $(VENV)/torch.lock
 	@touch $@
 
 .PHONY: reproduce
