@@ -18,9 +18,7 @@ from packaging.utils import canonicalize_name
 
 from tests.paths import ROOT
 
-LOCK, SLURM, GPU = (
-    ROOT / f"requirements{which}.lock" for which in ("", "-slurm", "-gpu")
-)
+LOCK, SLURM, GPU = (ROOT / f"requirements{which}.lock" for which in ("", "-slurm", "-gpu"))
 UV = Path(sys.executable).parent / "uv"
 OLDEST = "3.11"
 """Versions fit every Python from this one on; where none does, a marker chooses."""
@@ -64,7 +62,16 @@ def resolved(extras: Iterable[str], known: Iterable[Pin], *options: str) -> list
         # Versions only: uv would keep the checksums, too, and add none of files that came later.
         out.write_text("\n".join(pin.required for pin in known), "utf-8")
         of_extras = [part for extra in extras for part in ("--extra", extra)]
-        uv("pip", "compile", "pyproject.toml", *of_extras, "--output-file", str(out), *FOR_ALL, *options)
+        uv(
+            "pip",
+            "compile",
+            "pyproject.toml",
+            *of_extras,
+            "--output-file",
+            str(out),
+            *FOR_ALL,
+            *options,
+        )
         return pins(out.read_text("utf-8"))
 
 
@@ -81,7 +88,12 @@ def uv(*arguments: str, given: str | None = None) -> str:
         SystemExit: it could not do it; it says why.
     """
     done = subprocess.run(
-        [UV, "--quiet", *arguments], cwd=ROOT, input=given, capture_output=True, text=True, check=False
+        [UV, "--quiet", *arguments],
+        cwd=ROOT,
+        input=given,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if done.returncode:
         raise SystemExit(f"upswing: uv {' '.join(arguments[:3])}: {done.stderr.strip()}")
@@ -89,7 +101,7 @@ def uv(*arguments: str, given: str | None = None) -> str:
 
 
 def with_cpu_builds(found: Pin, known: Mapping[str, Pin], index: str) -> Pin:
-    """torch with the checksums of its CPU builds: those that ``index`` has, else those that are known.
+    """The pin of torch with the checksums of its CPU builds: those that ``index`` has, else those that are known.
 
     Raises:
         SystemExit: it is another torch than the one that is known, and no index is named.
@@ -97,7 +109,9 @@ def with_cpu_builds(found: Pin, known: Mapping[str, Pin], index: str) -> Pin:
     if index:
         (build,) = found.requirement.specifier
         asked = f"torch=={build.version}+cpu ; sys_platform == 'linux'"
-        (cpu,) = pins(uv("pip", "compile", "-", "--no-deps", "--default-index", index, *FOR_ALL, given=asked))
+        (cpu,) = pins(
+            uv("pip", "compile", "-", "--no-deps", "--default-index", index, *FOR_ALL, given=asked)
+        )
     elif found.name in known and known[found.name].required == found.required:
         cpu = known[found.name]
     else:

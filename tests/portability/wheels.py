@@ -24,7 +24,9 @@ class Platform(NamedTuple):
 
     name: str
     marker: dict[str, str]  # what markers ask of it
-    tag: re.Pattern[str]  # of wheels for it; its groups are the version that they need of the system
+    tag: re.Pattern[
+        str
+    ]  # of wheels for it; its groups are the version that they need of the system
     system: str  # what that is a version of
 
 
@@ -36,7 +38,11 @@ PLATFORMS = (
     Platform("Linux arm64", {**LINUX, "platform_machine": "aarch64"}, re.compile(r"manylinux_(2)_(\d+)_aarch64"), "glibc"),
     Platform("macOS arm64", {**MACOS, "platform_machine": "arm64"}, re.compile(r"macosx_(\d+)_(\d+)_(?:arm64|universal2)"), "macOS"),
 )  # fmt: skip
-OF_OLD = {"manylinux2014": "manylinux_2_17", "manylinux2010": "manylinux_2_12", "manylinux1": "manylinux_2_5"}
+OF_OLD = {
+    "manylinux2014": "manylinux_2_17",
+    "manylinux2010": "manylinux_2_12",
+    "manylinux1": "manylinux_2_5",
+}
 """What older names of tags mean."""
 
 
@@ -69,18 +75,24 @@ def lines(lock: Path) -> list[Line]:
     Raises:
         SystemExit: the index cannot be reached, or lacks a version.
     """
-    found = tomllib.loads(uv("pip", "compile", str(lock), "--no-deps", "--format", "pylock.toml", *FOR_ALL))
+    found = tomllib.loads(
+        uv("pip", "compile", str(lock), "--no-deps", "--format", "pylock.toml", *FOR_ALL)
+    )
     return [_line(package) for package in found["packages"]]
 
 
 def _line(package: dict[str, Any]) -> Line:
     files = [*package.get("wheels", ()), *([package["sdist"]] if "sdist" in package else ())]
-    wheels = (File(each["url"].rsplit("/", 1)[1], each["size"]) for each in package.get("wheels", ()))
+    wheels = (
+        File(each["url"].rsplit("/", 1)[1], each["size"]) for each in package.get("wheels", ())
+    )
     return Line(
         name=package["name"],
         marker=Marker(package["marker"]) if "marker" in package else None,
         wheels=tuple(wheels),
-        checksums=frozenset(f"{kind}:{digits}" for each in files for kind, digits in each["hashes"].items()),
+        checksums=frozenset(
+            f"{kind}:{digits}" for each in files for kind, digits in each["hashes"].items()
+        ),
     )
 
 
@@ -112,7 +124,9 @@ def _needed(tag: Tag, platform: Platform, python: tuple[int, int]) -> Iterator[t
     name, _, rest = tag.platform.partition("_")
     if tag.platform == ANYWHERE:
         yield ()
-    elif found := platform.tag.fullmatch(f"{OF_OLD[name]}_{rest}" if name in OF_OLD else tag.platform):
+    elif found := platform.tag.fullmatch(
+        f"{OF_OLD[name]}_{rest}" if name in OF_OLD else tag.platform
+    ):
         yield tuple(map(int, found.groups()))
 
 
