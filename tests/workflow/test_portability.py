@@ -42,26 +42,43 @@ def test_the_table_of_the_documentation_is_what_the_index_has(index):
     assert page.table() == page.stored()
 
 
+def resolved_by_uv(platform, python, *arguments: str) -> set[str]:
+    """The lines that uv finds there, from wheels only unless an argument excepts one."""
+    options = [
+        "--python-platform",
+        FOR_UV[platform.name],
+        "--python-version",
+        ".".join(map(str, python)),
+    ]
+    found = uv("pip", "compile", "--no-deps", "--only-binary", ":all:", *options, *arguments)
+    return {pin.name for pin in pins(found)}
+
+
+@pytest.mark.heavy
 @pytest.mark.parametrize("python", PYTHONS, ids=lambda python: ".".join(map(str, python)))
 @pytest.mark.parametrize("platform", PLATFORMS, ids=lambda platform: platform.name)
-def test_every_line_is_resolved_as_the_table_says(index, monkeypatch, tmp_path, platform, python):
+def test_every_line_is_resolved_as_the_table_says(index, monkeypatch, platform, python):
     monkeypatch.setenv("MACOSX_DEPLOYMENT_TARGET", "14.0")
     pinned = wanted([*index.LOCK, *index.SLURM, *index.GPU], platform, python)
-    built = sorted(line.name for line in pinned if fitting(line, platform, python) is None)
-    options = [
-        "--no-deps", "--python-platform", FOR_UV[platform.name], "--no-annotate", "--no-header",
-        "--python-version", ".".join(map(str, python)), "--only-binary", ":all:",
-    ]  # fmt: skip
+    built = [line.name for line in pinned if fitting(line, platform, python) is None]
     excepted = [part for name in built for part in ("--no-binary", name)]
-    found = pins(uv("pip", "compile", *map(str, LOCKS), *options, *excepted))
-    assert {pin.name for pin in found} == {line.name for line in pinned}
-    for name in built:  # that it is built there is not said in vain
-        asked = tmp_path / "one.txt"
-        asked.write_text(
-            next(pin.required for pin in pins(LOCK.read_text("utf-8")) if pin.name == name)
-        )
-        with pytest.raises(SystemExit):
-            uv("pip", "compile", str(asked), *options)
+    found = resolved_by_uv(platform, python, *map(str, LOCKS), *excepted)
+    assert found == {line.name for line in pinned}
+
+
+def test_what_is_said_to_be_built_has_no_wheel_for_uv_either(index, tmp_path):
+    newest = PYTHONS[-1]
+    built = [
+        line.name
+        for line in index.LOCK
+        if fitting(line, LINUX, newest) is None and line in wanted([line], LINUX, newest)
+    ]
+    assert built
+    for pin in pins(LOCK.read_text("utf-8")):
+        if pin.name in built:
+            (tmp_path / "one.txt").write_text(pin.required, "utf-8")
+            with pytest.raises(SystemExit, match="wheel"):
+                resolved_by_uv(LINUX, newest, str(tmp_path / "one.txt"))
 
 
 def test_the_lock_files_have_all_that_the_project_needs_and_torch_for_a_gpu_besides(index):
