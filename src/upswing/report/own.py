@@ -1,8 +1,7 @@
 """What the page of a study of one's own says where that of the thesis speaks of the thesis.
 
-A study is one's own if it has a title or claims of its own, or if no claim is judged by it. What the page
-says of the thesis's author then says nothing, and is left out; so is all of claims and verdicts, where
-none are judged.
+A study is one's own if it has a title or claims of its own, or if no claim is judged by it. What a page
+says of the thesis's author is then left out; so is all of claims and verdicts, where none are judged.
 """
 
 from collections.abc import Mapping, Sequence
