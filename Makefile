@@ -23,6 +23,10 @@ end = $(if $(value NOTE),$(BIN)/upswing history noted "$$results" && )echo "The 
 # The folder of results that a target is about, for the shell.
 folder = results=$(if $(RESULTS),"$(RESULTS)",$(if $(filter file,$(origin CONFIG)),results,$$($(BIN)/upswing check "$(CONFIG)" --folder)))
 
+# Exactly what a lock file (1) lists, each file with its checksum; options (2).
+locked = $(PIP) install --no-deps --require-hashes $(2) -r $(1)
+PIP = $(BIN)/python -m pip --quiet --disable-pip-version-check
+
 # What is set outside must not choose other packages, nor another encoding.
 unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
@@ -50,11 +54,19 @@ $(INSTALLED): $(VENV)/.locked pyproject.toml | writable
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/.locked: requirements.lock requirements-slurm.lock | writable
+$(VENV)/.locked: requirements.lock requirements-gpu.lock requirements-slurm.lock | writable
 	@test -n "$(PYTHON)" || { echo "upswing needs Python 3.11 or newer; none was found. Try: make PYTHON=/path/to/python3 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target $(VENV)/slurm -r requirements-slurm.lock
+	@# torch first: its CPU build where there is one. Asked for checksums, pip prefers a file whose checksum the index
+	@# tells, and a folder tells none; so it chooses without, and what it chose is then checked like everything else.
+	sed -n '/^torch==/,/[^\\]$$/p' requirements.lock > $(VENV)/torch.lock
+	$(PIP) download --no-deps --dest $(VENV)/torch "$$(grep -o '^torch==[^ ]*' $(VENV)/torch.lock)"
+	$(call locked,$(VENV)/torch.lock,--no-index --find-links $(VENV)/torch)
+	$(call locked,requirements.lock)
+	@# Any other build for Linux cannot even be imported without libraries for a GPU.
+	@$(BIN)/python -c "import torch" 2> /dev/null || { echo "This torch needs gigabytes of GPU libraries. README.md says how to do without." >&2; $(call locked,requirements-gpu.lock); }
+	$(call locked,requirements-slurm.lock,--target $(VENV)/slurm)
+	@rm -r $(VENV)/torch $(VENV)/torch.lock
 	@touch $@
 
 .PHONY: reproduce
@@ -183,16 +195,12 @@ snakemake-report: install ## Snakemake's own report: every output with its rule,
 	@$(folder) && page="$$results/report/snakemake.html" && $(SNAKEMAKE) $(call of,$(CONFIG)) --report "$$page" && echo "Snakemake's report is at $$page"
 
 .PHONY: lock
-lock: ## Renew requirements.lock from pyproject.toml
-	$(PYTHON) -m venv --clear .lock-venv
-	.lock-venv/bin/python -m pip install --quiet '.[dev,docs]'
-	{ echo "# Exact versions of everything that upswing uses. Renew with: make lock"; \
-	  .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | sed 's/+cpu$$//'; } > requirements.lock
-	.lock-venv/bin/python -m pip install --quiet '.[slurm]'
-	{ sed -n '/^#/p' requirements-slurm.lock; .lock-venv/bin/python -m pip freeze --all --exclude upswing --exclude pip | \
-	  sed 's/+cpu$$//' | grep -vxFf requirements.lock; } > requirements-slurm.lock.new
-	mv requirements-slurm.lock.new requirements-slurm.lock
-	rm -rf .lock-venv build
+lock: install ## Renew the lock files from pyproject.toml, for all platforms; NEWEST=1 takes the newest versions
+	@CPU_BUILDS="$(CPU_BUILDS)" NEWEST="$(NEWEST)" $(BIN)/python -m tests.portability.lock
+
+.PHONY: portability
+portability: install ## Renew the documentation's table of where the lock files can be installed (needs an index)
+	@$(BIN)/python -m tests.portability.page
 
 .PHONY: clean
 clean: ## Remove results and what Snakemake remembers of them; what was found before, the history, stays

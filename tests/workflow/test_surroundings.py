@@ -20,16 +20,26 @@ BARE = {
 def test_plain_snakemake_works_without_the_environment_on_the_path_and_in_another_encoding(
     tmp_path,
 ):
-    study = Study(tmp_path)
+    folder = tmp_path / "with blanks, and Übung Δφ"
+    folder.mkdir()
+    study = Study(folder)
     study.write({**SMALL, "seeds": 1, "experiments": SMALL["experiments"][:1]})
     done = subprocess.run(
         [BIN / "snakemake", "--cores", "2", "--configfile", "config/small.yaml", "--",
          "results/tables/verdicts.parquet"],
-        cwd=tmp_path, env={**BARE, "PYTHONUTF8": "0", "LC_ALL": "C"},
+        cwd=folder, env={**BARE, "PYTHONUTF8": "0", "LC_ALL": "C", "LANG": "C"}, umask=0o027,
         capture_output=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr.decode()
-    assert "α" in (tmp_path / "results/logs/verdicts.log").read_text("utf-8")
+    assert "α" in (folder / "results/logs/verdicts.log").read_text("utf-8")
+    made = {
+        path: path.stat().st_mode & 0o777
+        for path in (folder / "results").rglob("*")
+        if path.is_file()
+    }
+    assert made
+    # Whoever shares the folder by its group can read all of it, and nobody else can.
+    assert [path for path, mode in made.items() if mode & 0o040 == 0 or mode & 0o027] == []
 
 
 def test_a_subcommand_prints_in_utf_8_whatever_the_encoding(tmp_path):

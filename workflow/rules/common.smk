@@ -44,7 +44,7 @@ from upswing.runs.records import restore, taken_as_they_are
 from upswing.runs.study_file import canonical
 from upswing.study import jobs
 from upswing.study.check import asked, asked_of_module
-from upswing.study.claims import canonical_claims
+from upswing.study.claims import canonical_claims, file_of_claims
 from upswing.study.config import pendulum_of_bound
 from upswing.study.errors import BadInput
 from upswing.study.ids import KNOWN_FILE
@@ -91,7 +91,8 @@ except BadInput as error:
     raise WorkflowError(str(error)) from None
 
 RESULTS = STUDY.results
-CLAIMS_FILE, SWEEPS_FILE, TEMPLATES = map(str, READ[:3])
+CLAIMS_FILE = str(file_of_claims(STUDY, otherwise=READ.claims))
+SWEEPS_FILE, TEMPLATES = map(str, READ[1:3])
 MATRIX = FILES.matrix
 # Params get these from functions: in a text of its own Snakemake would take `{seed}` for a wildcard.
 STUDY_TEXT = canonical(STUDY)

@@ -27,6 +27,7 @@ rule figure:
         cells=lambda wildcards: FILES.cells_of_figure(wildcards.figure),
         seeds=lambda wildcards: FILES.seeds_of(FILES.cells_of_figure(wildcards.figure)),
         words=lambda wildcards: FILES.words_of_figure(wildcards.figure),
-        code=lambda wildcards: jobs.figure(wildcards.figure).fingerprint,
+        shown=lambda wildcards: FILES.shown(FILES.cells_of_figure(wildcards.figure)),
+        code=lambda wildcards: FILES.code_of_figure(wildcards.figure),
     shell:
         "{params.upswing:q} figure {wildcards.figure:q} {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} > {log:q} 2>&1"

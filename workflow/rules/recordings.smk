@@ -22,6 +22,9 @@ rule comparison:
             FILES.cells_of_comparison(wildcards.comparison)
         ),
         words=lambda wildcards: FILES.words_of_comparison(wildcards.comparison),
+        shown=lambda wildcards: FILES.shown(
+            FILES.cells_of_comparison(wildcards.comparison)
+        ),
         code=jobs.COMPARISON.fingerprint,
     shell:
         "{params.upswing:q} comparison {wildcards.comparison:q} {params.results:q} --study {params.asked:q} --claims {params.claims_file:q} > {log:q} 2>&1"

@@ -24,7 +24,7 @@ rule report:
         runtime=minutes("report"),
     params:
         **TOLD,
-        code=jobs.page(FILES.shown_figures).fingerprint,
+        code=jobs.page(FILES.project_figures).fingerprint,
         swept=lambda wildcards: FILES.shown_as_of(workflow.dag_settings.targets),
     shell:
         "{params.upswing:q} report {params.results:q} --templates {params.templates:q} > {log:q} 2>&1"

@@ -18,13 +18,12 @@ from upswing.runs.files.ledger import (
 )
 from upswing.runs.files.ledger import Ledger, ledger_of_run, ledger_path, ledgers, read_ledger
 from upswing.runs.files.trajectory import read_metadata
-from upswing.study.claims import Claim, canonical_claims, load_claims
+from upswing.study.claims import Claim, canonical_claims, file_of_claims, load_claims
 from upswing.study.errors import BadInput
 from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.history_paths import ENTRIES, HISTORY
 from upswing.study.ids import RUN_FILES, file_of
 from upswing.study.paths import CELLS, CHECKSUMS, EVIDENCE, RUNS, STUDY, VERDICTS
-from upswing.study.project_files import CLAIMS, along
 from upswing.study.spec import Spec
 
 NOT_OURS = ("README.md", "logs", "benchmarks", CHECKSUMS, "runs", ADOPTED, "report/snakemake.html")
@@ -57,8 +56,8 @@ def examine(results: Path, claims: Path | None = None) -> Diagnosis:
 
     Args:
         results: the folder.
-        claims: the file of claims (without: the working folder's, else the project's); where the
-            verdicts were judged by these, they are judged again.
+        claims: the file of claims; without, the study's own, or the thesis's. Where the verdicts were
+            judged by these, they are judged again.
 
     Raises:
         BadInput: the folder has no readable ``study.json``, so nobody can say what should be in it.
@@ -84,7 +83,7 @@ def examine(results: Path, claims: Path | None = None) -> Diagnosis:
     notes = [*_versions(found), *_left_out(matrix)]
     if whole:
         named = {finding.path for finding in findings}
-        judged, note = _claims(results, claims or along(CLAIMS))
+        judged, note = _claims(results, file_of_claims(matrix.study, claims))
         notes += note
         findings += [
             _damaged(results / table, what)

@@ -193,7 +193,7 @@ def sum_up(results: Results, claims: Mapping[str, Claim], evidence: list[Evidenc
                 "diverged": max(row.diverged for row in own),
                 "note": claim.note,
                 "parts": len(own),
-                "figure": claim.figure,
+                "figure": claim.figure if isinstance(claim.figure, int) else None,
                 "recordings": _recordings(results, claim.cell),
             }
         )

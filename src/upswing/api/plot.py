@@ -11,13 +11,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from PIL import Image
 
+from upswing.analysis.colours import label, shown_as
 from upswing.figures import panels
 from upswing.figures.appearance import APPEARANCE
 from upswing.physics.actions import signed
 from upswing.runs.files.trajectory import WHOLE_AT_START
 from upswing.runs.recording.actions import UNDECIDED_COLOUR, action_colours
 from upswing.runs.results import Ensemble, OneRun, Results
-from upswing.study.ids import CellId
 
 if TYPE_CHECKING:
     from upswing.api.policy import Policy
@@ -79,7 +79,7 @@ def figure_of_run(run: "Run") -> Figure:
 
 def figure_of_cell(results: Results, cell: str) -> Figure:
     """φ of the median run, and how all runs of a cell learned."""
-    with mpl.rc_context(APPEARANCE):
+    with mpl.rc_context(APPEARANCE), shown_as(results.study, results.architectures):
         picture = Picture(figsize=(WIDTH, ROW))
         left, right = picture.subplots(1, 2, width_ratios=(3, 2))
         picture.suptitle(cell, fontsize=9, x=0.01, ha="left")
@@ -89,7 +89,7 @@ def figure_of_cell(results: Results, cell: str) -> Figure:
         else:
             panels.angle_histogram(left, median, cell)
         left.set_title(f"Median run (seed {median.seed})")
-        of_learning(right, cell, results.ensemble(cell), CellId.parse(cell).label)
+        of_learning(right, cell, results.ensemble(cell), label(cell))
     return picture
 
 

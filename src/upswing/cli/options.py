@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from upswing.study.claims import Claim
     from upswing.study.config import Study
 
 RESULTS = Path("results")
@@ -30,7 +33,6 @@ Positional = Annotated[
 
 
 CONFIG = Path("config/config.yaml")
-CLAIMS = Path("config/claims.yaml")
 SWEEPS = Path("config/readings.yaml")
 TEMPLATES = Path("report")
 """What is read where nothing is given: in the working folder, or else what comes with the package."""
@@ -62,7 +64,12 @@ def needs_checkout(what: str, *places: Path) -> None:
 
 
 Claims = Annotated[
-    Path, typer.Option(metavar="FILE", help="The file of claims.", callback=or_along)
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="The file of claims (default: the study's own, or config/claims.yaml).",
+        show_default=False,
+    ),
 ]
 Sweeps = Annotated[
     Path, typer.Option(metavar="FILE", help="The file of sweeps.", callback=or_along)
@@ -86,6 +93,23 @@ def asked_study(text: str) -> "Study | None":
     from upswing.runs.study_file import parse_study
 
     return parse_study(text, "study") if text else None
+
+
+def claims_of(study: "Study", given: Path | None, checked: bool = True) -> "Mapping[str, Claim]":
+    """The claims that a study is judged by: those in the file that is given, its own, or the thesis's.
+
+    Args:
+        study: the study.
+        given: the file that was given, if any.
+        checked: whether cells and figures that they name must be there; a job of the workflow, which
+            has checked them, need not look again.
+
+    Raises:
+        BadInput: all that is wrong with them.
+    """
+    from upswing.study.claims import file_of_claims, load_claims
+
+    return load_claims(file_of_claims(study, given), study if checked else None)
 
 
 def results_folder(named: Path | None, positional: Path | None = None) -> Path:

@@ -15,6 +15,7 @@ THESIS, FAR_SIGHTED = "0.7", "0.97"
 SHOWN = 20.0
 """How far φ̇ is shown for the thesis's pendulum [rad/s]; for another, as far beside what it can reach."""
 
+HANGING = "success_from_hanging"
 NEEDED = "lowest_discount_from_hanging"
 
 
@@ -37,7 +38,9 @@ def draw(results: "Results") -> "Drawing":
     policies = {f"action_{discount}": "whole" for discount in (THESIS, FAR_SIGHTED)}
     maps = read_table(results.folder / MAPS, {**OF_THE_MAPS, **policies}, REMEDY)
     path = results.folder / BOUND
-    bound = read_table(path, OF_THE_BOUND, REMEDY).set_index("quantity")["value"]
+    table = read_table(path, OF_THE_BOUND, REMEDY)
+    bound = table.set_index("quantity")["value"]
+    swings = table[(table["quantity"] == HANGING) & (table["discount"] == float(THESIS))]["value"]
     angles = np.degrees(np.unique(maps["angle"]))
     speeds = np.unique(maps["angular_velocity"])
     if len(maps) != len(angles) * len(speeds):
@@ -79,12 +82,17 @@ def draw(results: "Results") -> "Drawing":
         loc="outside lower right", ncols=min(len(names), 5), frameon=False,
     )  # fmt: skip
     needed = bound.loc[[NEEDED]].iloc[-1]  # of the finest grid
+    low = (
+        "it pushes towards upright whatever the velocity, and what hangs stays below; from "
+        f"γ = {needed:.3f} on it swings up from there"
+    )
+    since = f"{needed:.3f}"
+    if len(swings) and swings.iloc[-1]:  # another pendulum may be lighter to move
+        low, since = "what hangs is swung up already", THESIS
     caption = (
         "Left: the least time to upright from every state; the white line is the border of the states "
         "from which the pendulum can be kept above the horizontal. Middle and right: the policy that is "
-        f"best for the discounted reward, by value iteration. With the thesis's γ = {THESIS} it pushes "
-        "towards upright whatever the velocity, and what hangs stays below; from "
-        f"γ = {needed:.3f} on it swings up from there."
+        f"best for the discounted reward, by value iteration. With the thesis's γ = {THESIS} {low}."
     )
-    alt = f"The best policy for the discounted reward swings up from hanging from γ = {needed:.3f} on."
+    alt = f"The best policy for the discounted reward swings up from hanging from γ = {since} on."
     return panels.Drawing(figure, caption, [], alt)

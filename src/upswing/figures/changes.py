@@ -19,13 +19,12 @@ def draw(results: "Results") -> "Drawing":
     """A row for each cell of full control, in groups: its share of successes, its steps to stability."""
     import numpy as np
 
-    from upswing.analysis.colours import of_text
+    from upswing.analysis.colours import label, of_text
     from upswing.figures import panels
     from upswing.figures.lengths import in_steps
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.files.typed_table import read_table
     from upswing.runs.metrics import STABLE_STEPS
-    from upswing.study.ids import CellId
 
     changes = read_table(results.folder / CHANGES, OF_A_CHANGE, REMEDY)
     upright = [results.task(cell).judged_by == "upright" for cell in changes["cell"]]
@@ -59,7 +58,7 @@ def draw(results: "Results") -> "Drawing":
                 if cell["task"] == "full-control"
                 else f"{cell['task'].removeprefix('full-control-')}: "
             )
-            labels.append(task + CellId.parse(cell["cell"]).label)
+            labels.append(task + label(cell["cell"]))
             places.append(row)
             row += 1
         row += 0.3

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 from matplotlib.ticker import NullLocator
 
-from upswing.analysis.colours import colour, of_text
+from upswing.analysis.colours import colour, label, of_text
 from upswing.analysis.strips import ends
 from upswing.figures import interaction
 from upswing.figures.appearance import MUTED, SMALL
@@ -204,7 +204,7 @@ def _estimate(axes: Axes, row: Row, middle: float) -> str:
 
 def _label(cell: str, results: Results, task: str) -> str:
     """A cell; with the number of its steps where its task is not that of the figure's first."""
-    words = CellId.parse(cell).label
+    words = label(cell)
     if CellId.parse(cell).task == task:
         return words
     return f"{words}, {results.task(cell).steps:,} steps"

@@ -7,6 +7,7 @@ from upswing.figures.declaration import Declaration
 if TYPE_CHECKING:
     from upswing.figures.panels import Drawing
     from upswing.runs.results import Results
+    from upswing.study.task import NamedTask
 
 FIGURE = Declaration("Learning curves", "", ("C1", "C4", "C5", "C10", "C12"))
 WINDOWS = 40
@@ -17,7 +18,7 @@ def draw(results: "Results") -> "Drawing":
     """Panels for the first task of each way of judging: medians of cells, with their quartiles."""
     import numpy as np
 
-    from upswing.analysis.colours import colour
+    from upswing.analysis.colours import colour, label, name_of
     from upswing.figures import panels
     from upswing.figures.interaction import Curves, remember
     from upswing.figures.style import dashes, grid_of_panels
@@ -25,11 +26,13 @@ def draw(results: "Results") -> "Drawing":
 
     figure, axes = grid_of_panels(2, (1, 1), height=2.4)
     seen: list[str] = []
+    with_one = others = False
     for number, judged_by in enumerate(("falls", "upright")):
         tasks = [
             spec.task.name for spec in results.cells.values() if spec.task.judged_by == judged_by
         ]
         task = tasks[0] if tasks else ""
+        others |= len({task.pendulum for task in _tasks(results, judged_by)}) > 1
         cells = [cell for cell, spec in results.cells.items() if spec.task.name == task]
         # Of each architecture the step size with most successes, and with α = 1 if that is another.
         chosen: dict[str, str] = {}
@@ -66,16 +69,15 @@ def draw(results: "Results") -> "Drawing":
                 panel.plot(last, middle, dashes(cell), color=shade, linewidth=1.4)
                 panel.fill_between(last, low, high, color=shade, alpha=0.12, linewidth=0)
                 words = (
-                    CellId.parse(cell).label
-                    if name == "best α"
-                    else CellId.parse(cell).architecture
+                    label(cell) if name == "best α" else name_of(CellId.parse(cell).architecture)
                 )
                 ends.append((float(middle[-1]), words, shade))
                 if results.cells[cell].alpha is not None:
                     learned.append((float(middle[-1]), words))
             if name == "best α" and learned:
                 seen.append(f"{task}: {_ends(learned, judged_by)}")
-            panel.set_visible(bool(cells))
+            panel.set_visible(bool(shown))
+            with_one |= name == "α = 1" and bool(shown)
             panel.set_title(f"{task}, {name}")
             panel.set_ylabel("falls per 1,000 steps" if judged_by == "falls" else "upright [%]")
             if judged_by == "upright":
@@ -88,13 +90,21 @@ def draw(results: "Results") -> "Drawing":
             panels.label_ends(panel, ends)
     what = ". ".join(seen)
     see = f" What to see: where the medians on the left end. {what}." if what else ""
+    right = " Right: all of them with α = 1." if with_one else ""
+    first = " Of several tasks of a kind, only the first is shown." if others else ""
     caption = (
         "Medians over the runs, with the band between the quartiles; modular ones are dashed. Left: "
-        "each architecture with the step size that succeeds most often (the first, if several do). "
-        f"Right: all of them with α = 1.{see}"
+        "each architecture with the step size that succeeds most often (the first, if several do)."
+        f"{right}{first}{see}"
     )
     alt = f"Where the medians end with the best α. {what}." if what else ""
     return panels.Drawing(figure, caption, [], alt)
+
+
+def _tasks(results: "Results", judged_by: str) -> "list[NamedTask]":
+    """The tasks that are judged in this way."""
+    every = {spec.task.name: spec.task for spec in results.cells.values()}
+    return [task for task in every.values() if task.judged_by == judged_by]
 
 
 def _succeeds(results: "Results", cell: str) -> float:

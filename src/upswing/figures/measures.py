@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from typing import NamedTuple
 
-from upswing.figures.lengths import in_steps
+from upswing.figures.lengths import end_of
 from upswing.study.claim_parts import Part
 from upswing.study.physical import THESIS_TIME_STEP
 from upswing.study.task import Task
@@ -58,18 +58,21 @@ def axis_of(part: Part, tasks: Collection[Task] = ()) -> AxisOf:
         pair = (str(part.measure), str(part.per))
         words = OF_SUMS.get(pair, f"{pair[0]} / {pair[1]} [%]".replace("_", " "))
         return AxisOf(words, PERCENT, (0.0, 100.0), is_count=False)
-    from upswing.runs.metrics import END
+    alone = described(part.measure or next(iter(part.where), ""), tasks)
+    if not part.paired:
+        return alone
+    words = f"difference of the same seed, {alone.label}"
+    return AxisOf(words, alone.factor, None, is_count=False)
 
-    name = part.measure or next(iter(part.where), "")
-    words = WORDS.get(name, name.replace("_", " ")).format(end=in_steps(END, tasks))
+
+def described(name: str, tasks: Collection[Task] = ()) -> AxisOf:
+    """The axis of a measure of each run, of these tasks."""
+    words = WORDS.get(name, name.replace("_", " ")).format(end=end_of(tasks))
     if name in IN_STEPS and any(task.pendulum.time_step != THESIS_TIME_STEP for task in tasks):
         words += " of 5 ms"
-    if part.paired:
-        words = f"difference of the same seed, {words}"
     if name.endswith("_share") or name.startswith("upright_"):
-        within = None if part.paired else (0.0, 100.0)
-        return AxisOf(words, PERCENT, within, is_count=False)
-    return AxisOf(words, 1.0, None, is_count=name.startswith(COUNTS) and not part.paired)
+        return AxisOf(words, PERCENT, (0.0, 100.0), is_count=False)
+    return AxisOf(words, 1.0, None, is_count=name.startswith(COUNTS))
 
 
 def threshold_of(part: Part) -> Threshold | None:

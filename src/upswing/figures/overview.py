@@ -22,13 +22,13 @@ def draw(results: "Results") -> "Drawing":
     """A row for each cell: a dot a run, and the share of runs that succeed with its interval."""
     import numpy as np
 
-    from upswing.analysis.colours import colour, of_text
+    from upswing.analysis.colours import colour, label, of_text
     from upswing.figures import panels
+    from upswing.figures.captions import succeeding
     from upswing.figures.interaction import Dots, remember
-    from upswing.figures.lengths import in_steps
+    from upswing.figures.lengths import end_of
     from upswing.figures.style import WIDTH, subplots
     from upswing.figures.success_share import share
-    from upswing.runs.metrics import END
     from upswing.runs.success import SUCCESS
     from upswing.study.ids import CellId
 
@@ -65,7 +65,7 @@ def draw(results: "Results") -> "Drawing":
                 va="center",
                 color=of_text(shade),
             )
-        left.set_yticks(range(len(cells)), [CellId.parse(cell).label for cell in cells])
+        left.set_yticks(range(len(cells)), [label(cell) for cell in cells])
         left.set_ylim(len(cells) - 0.4, -0.6)
         left.set_title(f"{task}: every run")
         right.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
@@ -77,16 +77,20 @@ def draw(results: "Results") -> "Drawing":
             right.set_title("Runs without a fall in the last fifth [%]")
         else:
             left.set(xlim=(-3, 103), xticks=(0, 25, 50, 75, 100))
-            left.set_xlabel(f"upright in the last {in_steps(END, [results.task(cells[0])])} [%]")
+            left.set_xlabel(f"upright in the last {end_of([results.task(cells[0])])} [%]")
             right.set_title(f"Runs upright for {100 * SUCCESS:.0f} % of them [%]")
         for axes in (left, right):
             axes.grid(visible=False, axis="y")
     what = "; ".join(seen)
-    end = in_steps(END, [spec.task for spec in results.cells.values()])
+    every = [spec.task for spec in results.cells.values()]
+    stands = f"are upright for {100 * SUCCESS:.0f} % of their last {end_of(every)}"
+    done = {
+        "falls": "balance without a fall in their last fifth",
+        "upright": f"stand at the end ({stands})",
+    }
     caption = (
         "Each row is a cell. Left: every run as a dot, its seeds from top to bottom. Right: the share "
-        "of runs that balance without a fall in their last fifth, or stand at the end (are upright for "
-        f"{100 * SUCCESS:.0f} % of their last {end}); the bar is its 95 % interval (Wilson). "
+        f"of runs that {succeeding(every, done)}; the bar is its 95 % interval (Wilson). "
         f"What to see: {what}."
     )
     return panels.Drawing(figure, caption, [], f"{what[:1].upper()}{what[1:]}.")
@@ -94,15 +98,15 @@ def draw(results: "Results") -> "Drawing":
 
 def _best(results: "Results", task: str, cells: "Sequence[str]") -> str:
     """In how many cells of a task that learn most runs succeed, and which of them is the best."""
+    from upswing.analysis.colours import label
     from upswing.figures.success_share import share
-    from upswing.study.ids import CellId
 
     if not cells:
         return f"in {task} none learns"
     found = {cell: share(results, cell) for cell in cells}
     best = max(found, key=lambda cell: found[cell].value if found[cell].of else -1.0)
     most = sum(one.value > HALF for one in found.values())
-    words = f"{found[best].successes} of {found[best].of} with {CellId.parse(best).label}"
+    words = f"{found[best].successes} of {found[best].of} with {label(best)}"
     return (
         f"in {task} most runs succeed in {most} of {len(cells)} cells that learn, at best {words}"
     )

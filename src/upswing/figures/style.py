@@ -56,6 +56,11 @@ def grid_of_panels(
     return figure, [panel for row in axes for panel in row]
 
 
+def empty(height: float) -> Figure:
+    """A figure without panels, as wide as a page and ``height`` high [inch]."""
+    return plt.figure(figsize=(WIDTH, height))
+
+
 class Stacked(NamedTuple):
     """A figure of rows, each a stack of low panels on the left and one panel on the right."""
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from upswing.analysis.colours import name_of
 from upswing.analysis.survival import median_time
 from upswing.figures.decided import Decided
 from upswing.figures.lengths import in_steps
@@ -76,6 +77,7 @@ def of_a_part(part: Decided | None) -> str:
 
 def over_alpha(results: Results, task: str, architecture: str, cells: Mapping[float, str]) -> str:
     """From the worst to the best step size of an architecture, and which are the best."""
+    architecture = name_of(architecture)
     shares = {alpha: share(results, cell).value / 100 for alpha, cell in sorted(cells.items())}
     found = {alpha: value for alpha, value in shares.items() if not np.isnan(value)}
     if not found:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import rerun as rr
 
+from upswing.analysis.colours import shown_as
 from upswing.recordings.claim_recording import write_claim
 from upswing.recordings.comparison_names import comparison_names
 from upswing.recordings.task_recording import write_task
@@ -32,9 +33,10 @@ def write_comparison(results: Results, claims: Mapping[str, Claim], name: str) -
     rr.set_strict_mode(True)  # otherwise errors become warnings and data is dropped
     path = results.folder / comparison(name)
     what, _, of = name.partition("-")
-    if what == "task":
-        write_task(path, results, of)
-    else:
-        write_claim(path, results, of, claims[of])
+    with shown_as(results.study, results.architectures):
+        if what == "task":
+            write_task(path, results, of)
+        else:
+            write_claim(path, results, of, claims[of])
     seal(results.folder, f"{RECORDINGS}/{name}", [path])
     return path

@@ -8,6 +8,8 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
+from upswing.analysis.colours import label
+from upswing.analysis.colours import name_of as called
 from upswing.recordings.identical import once, runs_of
 from upswing.recordings.shades import Colour, shades
 from upswing.runs.files.atomic import written
@@ -75,9 +77,9 @@ def name_of(cell: str, others: Sequence[str]) -> str:
     """What a cell is called, with those that have the same runs: ``table = modular-table, α = 1``."""
     one, same = CellId.parse(cell), [CellId.parse(other) for other in others]
     if all(other.alpha == one.alpha for other in same):
-        together = " = ".join(each.architecture for each in (one, *same))
+        together = " = ".join(called(each.architecture) for each in (one, *same))
         return one._replace(architecture=together).label
-    return " = ".join(each.label for each in (one, *same))
+    return " = ".join(label(each) for each in (cell, *others))
 
 
 def _measure(task: Task) -> str:
@@ -128,9 +130,7 @@ def _words(
         else "the share of steps within 20° of upright"
     )
     twice = [
-        f"{CellId.parse(other).label} (in {CellId.parse(cell).label})"
-        for cell, others in same.items()
-        for other in others
+        f"{label(other)} (in {label(cell)})" for cell, others in same.items() for other in others
     ]
     lines = [
         f"### All runs of {name}",

@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from upswing.analysis.colours import label
 from upswing.runs.files.trajectory import WHOLE_AFTER_SUCCESS, WHOLE_BEFORE_SUCCESS
 from upswing.runs.metrics import UPRIGHT
 from upswing.runs.results import Results
-from upswing.study.ids import CellId, cell_of
+from upswing.study.ids import cell_of
 
 Real = NDArray[np.float64]
 
@@ -81,7 +82,7 @@ def _stretch(results: Results, says: str, run: str, success: float | None) -> St
     if results.study.readings.zero_of_angle == "hanging":
         angle = angle + np.pi
     what = "the end of its run" if success is None else "from where it first stays up"
-    title = f"{says}: {CellId.parse(cell_of(run)).label}"
+    title = f"{says}: {label(cell_of(run))}"
     return Stretch(title, f"{what}, step {first:,}", angle, apart * step)
 
 

@@ -33,8 +33,12 @@ class ShownEntry(NamedTuple):
     counts: list[str]
 
 
-def history(results: Path) -> dict[str, Any]:
+def history(results: Path, *, judges: bool = True) -> dict[str, Any]:
     """The newest entries, the newest first; how many are older; of each claim a verdict for each entry.
+
+    Args:
+        results: the folder of results.
+        judges: whether its page has verdicts; without, no claim is in it.
 
     Raises:
         BadInput: the list of entries is not what was written.
@@ -47,7 +51,10 @@ def history(results: Path) -> dict[str, Any]:
     return {
         "entries": [_shown(entry) for entry in shown],
         "older": len(every) - len(shown),
-        "claims": [(claim, [_verdict(entry, claim) for entry in shown]) for claim in judged],
+        "judges": judges,
+        "claims": [
+            (claim, [_verdict(entry, claim) for entry in shown]) for claim in judged if judges
+        ],
     }
 
 

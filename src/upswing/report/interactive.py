@@ -22,6 +22,7 @@ from upswing.runs.success import succeeds
 from upswing.study import paths
 from upswing.study.config import Study
 from upswing.study.errors import BadInput
+from upswing.study.own_figures import DeclaredFigure
 
 Row = dict[str, Any]
 Packed = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9+/]*=*$")]
@@ -42,10 +43,9 @@ def shown_figures(results: Path) -> list[Row]:
     Raises:
         BadInput: a figure's files are not as its job writes them.
     """
-    shown = []
-    for name in dict.fromkeys((*figures.NAMES, *read_study(results).figures)):
-        declared = figures.FIGURES[name]
-        page: Row = {"name": name, **declared._asdict(), "missing": True}
+    shown, study = [], read_study(results)
+    for name in dict.fromkeys((*figures.NAMES, *study.figure_names)):
+        page: Row = {"name": name, **_declared(name, study)._asdict(), "missing": True}
         path = results / paths.figure(name, "json")
         if path.exists():
             words = _words(path, name)
@@ -56,8 +56,20 @@ def shown_figures(results: Path) -> list[Row]:
                 "picture": inline(results / paths.figure(name, "svg"), name, said),
                 "panels": panels_of(words, path, name),
             }
+        if study.claims and name in figures.NAMES:  # those that it bears on are the thesis's
+            page["claims"] = ()
         shown.append(page)
     return shown
+
+
+def _declared(name: str, study: Study) -> figures.Declaration:
+    """What a figure shows, where that can be told without running somebody's file."""
+    own = figures.own_of(study).get(name)
+    if own is None:
+        return figures.FIGURES[name]
+    if isinstance(own, DeclaredFigure):
+        return figures.declaration_of(own)
+    return figures.Declaration(name, "", ())
 
 
 def _words(path: Path, name: str) -> Row:

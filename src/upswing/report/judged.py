@@ -1,6 +1,7 @@
 """The verdicts as the page shows them, each with its evidence."""
 
 from collections import Counter
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +50,22 @@ def judged(results: Path, comparisons: pd.DataFrame) -> list[Row]:
         ]
         verdict["figure"] = None if pd.isna(verdict["figure"]) else int(verdict["figure"])
     return verdicts
+
+
+def point_at_own(verdicts: list[Row], shown: list[Row], own: Collection[str]) -> None:
+    """Say of each verdict which of the study's own figures show it.
+
+    Args:
+        verdicts: they get a key ``shown_in``.
+        shown: the figures of the page.
+        own: the names of those that the study names itself.
+    """
+    for verdict in verdicts:
+        verdict["shown_in"] = [
+            figure
+            for figure in shown
+            if figure["name"] in own and verdict["claim"] in figure["claims"]
+        ]
 
 
 def counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:

@@ -8,6 +8,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 from markupsafe import Markup
 
 from upswing import figures
+from upswing.analysis.colours import shown_as
+from upswing.analysis.outcomes import OF_AN_OUTCOME, outcomes
 from upswing.recordings.content_policy import source_of
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
@@ -15,6 +17,7 @@ from upswing.report.cards import cards
 from upswing.report.chapter import chapter
 from upswing.report.citation import FILE as CITATION
 from upswing.report.citation import citation
+from upswing.report.command import commands
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
 from upswing.report.exploratory import exploratory
 from upswing.report.findings import findings
@@ -22,8 +25,17 @@ from upswing.report.glossary import glossary
 from upswing.report.headline import headline
 from upswing.report.history_shown import history
 from upswing.report.interactive import embedded, endings, shown_figures
-from upswing.report.judged import counts, judged
+from upswing.report.judged import counts, judged, point_at_own
 from upswing.report.kept import kept
+from upswing.report.own import (
+    counted,
+    is_chapter,
+    is_own,
+    own_findings,
+    own_headline,
+    own_words,
+    shown_verdicts,
+)
 from upswing.report.pendulums import body_of_bound, lengths, system
 from upswing.report.pictures import data_of
 from upswing.report.readings_shown import over_readings, rows, swept
@@ -55,12 +67,14 @@ from upswing.study.yaml_file import read_yaml
 
 Row = dict[str, Any]
 
+CONFIGURATIONS = Path("config")
+
 OF_A_SHOWN_RUN: Columns = {
     "task": "text", "architecture": "text", "alpha": "number", "seconds": "number",
     "steps_per_second": "number", "falls": "number", "falls_last_fifth": "number",
     "upright_share": "number", "above_horizontal_share": "number", "mean_reward": "number",
     "first_stable_step": "whole?", "greedy_success_share": "number", "upright_at_end": "number",
-    "diverged_at": "whole?",
+    "diverged_at": "whole?", **OF_AN_OUTCOME,
 }  # fmt: skip
 """What the page shows of each run, besides which it is."""
 
@@ -116,50 +130,73 @@ def page_of(
     environment.filters.update(words.FILTERS, source_of=source_of, cards=cards)
     matrix, there = Matrix(study), joined(results, study)
     evidence = read_evidence(results)
-    verdicts = judged(results, evidence)
+    verdicts = shown_verdicts(judged(results, evidence), study)
+    own = is_own(study, verdicts)
     cells = rows(read_cells(results, there.cells))
     table = read_runs(results, list(there.runs), OF_A_SHOWN_RUN)
     runs, ours = rows(table), set(matrix.runs)
     sizes = sorted({len(spec.seeds) for spec in matrix.cells.values()})
+    of_each = f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0])
+    told = counted(len(matrix.cells), len(ours), of_each)
     by_name = {row["cell"]: row for row in cells}
-    found = findings(by_name, verdicts)
+    learned_by = [row for row in cells if row["cell"] in matrix.cells]
+    found = own_findings(learned_by, study) if own else findings(by_name, verdicts)
+    moves = system(study, templates)
+    named = glossary(templates)
     drawn_figures = shown_figures(results)
+    point_at_own(verdicts, drawn_figures, study.figure_names)
+    with shown_as(study, [spec.architecture.name for spec in there.adopted]):
+        over_step_sizes = step_size_numbers(cells, study)
+        animation = "" if own else _animation(results)
     here = [row for row in verdicts if row["verdict"] != NOT_HERE]
     empirical = [row for row in here if not row["check"]]
     shown = {
         "study": study,
         "adopted": [spec.architecture for spec in there.adopted],
-        "seeds_of_a_cell": f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else str(sizes[0]),
+        "seeds_of_a_cell": of_each,
         "solving": [row for row in cells if study.tasks[row["task"]].judged_by == "upright"],
-        "animation": _animation(results),
+        "animation": animation,
         "findings": found,
-        "headline": headline(by_name, found, len(empirical), len(ours)),
-        "glossary": glossary(templates),
+        "own": own,
+        "chapter": is_chapter(study),
+        "commands": commands(study, CONFIGURATIONS),
+        "counted": told,
+        "headline": own_headline(study, told)
+        if own
+        else headline(by_name, found, len(empirical), len(ours)),
+        "glossary": own_words(named, study, moves["lengths"], moves["length_of_a_step"])
+        if own
+        else named,
+        "outcomes": outcomes(table, study) if own and study.judges else [],
         "citation": citation(templates.parent / CITATION),
         "lent": lent,
         "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
         "registered": registered(results, study),
-        "exploratory": exploratory(templates),
+        "exploratory": {} if study.claims else exploratory(templates),
         "over": over_readings(results, templates, verdicts, study),
-        **system(study, templates),
+        **moves,
         "cells": cells,
         "greedy": _greedy(runs),
         "cell": by_name,
         "runs": runs,
         "ends": endings(table, study),
-        "interactive": embedded(drawn_figures, step_size_numbers(cells, study), study),
+        "interactive": embedded(drawn_figures, over_step_sizes, study),
+        "over_step_sizes": over_step_sizes["tasks"],
         "verdicts": verdicts,
         "counts": counts(empirical),
         "judged": len(empirical),
         "new_runs": len(ours),
         "checks": [row for row in here if row["check"]],
         "figures": {figure["name"]: figure for figure in drawn_figures},
-        "own_figures": [name for name in study.figures if name not in figures.NAMES],
+        "figures_of_thesis": [
+            one for one in drawn_figures if one["number"] and not (own and one["missing"])
+        ],
+        "own_figures": [name for name in study.figure_names if name not in figures.NAMES],
         "beyond": _beyond(results, chapter_at),
         "readings": _readings(study.readings),
         "swept": swept(results, study),
         "deviations": read_yaml(templates / "deviations.yaml")["deviations"],
-        "history": history(results),
+        "history": history(results, judges=bool(verdicts)),
         "costs": costs(results),
         "totals": totals(results, sum(row["seconds"] for row in runs if row["run"] in ours)),
         "benchmark": _optional(results / BENCHMARK, OF_A_BENCHMARK, "`make bench` makes it"),

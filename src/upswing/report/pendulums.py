@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 
 from upswing.agents.features.grid import tiles_for
-from upswing.figures.lengths import in_steps
+from upswing.figures.lengths import end_of, in_steps
 from upswing.figures.phases import held
 from upswing.physics import tasks as kinds
 from upswing.physics.actions import listed, pushes, signed
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum, body_of
-from upswing.runs.metrics import END, STABLE_STEPS
-from upswing.study.config import Study, pendulum_of_bound
+from upswing.runs.metrics import STABLE_STEPS
+from upswing.study.config import Study, narrowed, pendulum_of_bound
 from upswing.study.physical import PendulumOptions, StartOptions, TileOptions, TrackOptions
 
 THESIS = PendulumOptions(), TrackOptions()
@@ -41,7 +41,7 @@ class Shown(NamedTuple):
 
 
 class Cut(NamedTuple):
-    """How tasks cut the state into tiles, or where their runs start: what is not the thesis's."""
+    """How a task cuts the state into tiles, where its runs start, what is added to its reward."""
 
     task: str
     words: str
@@ -123,6 +123,19 @@ def own_starts(study: Study) -> list[Cut]:
     return found
 
 
+def own_rewards(study: Study) -> list[Cut]:
+    """What tasks add to the reward that is learned from; nothing where none does."""
+    found = []
+    for name, task in study.tasks.items():
+        if task.velocity_weight:
+            found.append(Cut(name, f"−{task.velocity_weight:g}·φ̇² is added to it"))
+        if task.shaping:
+            found.append(
+                Cut(name, f"it is shaped by a potential of energy, {task.shaping:g} rad² high")
+            )
+    return found
+
+
 def drawn_for(svg: str, shown: Sequence[Shown]) -> str:
     """A drawing of the thesis's cart with the strongest pushes of these pendulums."""
     pairs = {(one.body.accelerations[0], one.body.accelerations[-1]) for one in shown}
@@ -133,7 +146,7 @@ def drawn_for(svg: str, shown: Sequence[Shown]) -> str:
 def length_of_a_step(study: Study) -> str:
     """How long a step is, in words: ``5 ms``; where tasks differ ``5 or 10 ms``."""
     lengths = sorted({float(task.pendulum.time_step) for task in study.tasks.values()})
-    return f"{' or '.join(f'{1000 * one:g}' for one in lengths)} ms"
+    return f"{listed([f'{1000 * one:g}' for one in lengths], 'or')} ms"
 
 
 class Choices(NamedTuple):
@@ -159,20 +172,30 @@ def choices(study: Study) -> Choices:
 def lengths(study: Study) -> dict[str, str]:
     """The stretches by which full control is judged, in steps of its tasks."""
     upright = [task for task in study.tasks.values() if task.judged_by == "upright"]
-    return {"stable": in_steps(STABLE_STEPS, upright), "end": in_steps(END, upright)}
+    return {"stable": in_steps(STABLE_STEPS, upright), "end": end_of(study.tasks.values())}
 
 
-def system(study: Study, templates: Path) -> dict[str, Any]:
+def system(whole: Study, templates: Path) -> dict[str, Any]:
     """What the page is given of what moves in a study; ``templates`` has the folder of drawings."""
+    study = narrowed(whole)
     found = pendulums(study)
+    sole = {one.accelerations for one in found}
+    kinds_of = {task.judged_by for task in study.tasks.values()}
     drawings = {path.stem: path for path in sorted((templates / "drawings").glob("*.svg"))}
     return {
         "pendulums": found,
+        "accelerates": sole.pop() if len(sole) == 1 else "",
         "choices": choices(study),
         "length_of_a_step": length_of_a_step(study),
         "lengths": lengths(study),
         "held": held_by_push(study),
         "own_tiles": own_tiles(study),
+        "tiles_of_thesis": len(own_tiles(study)) < len(study.tasks),
+        "own_rewards": own_rewards(study),
+        "tasks": list(study.tasks),
+        "architectures": study.architectures,
+        "has_falls": "falls" in kinds_of,
+        "has_upright": "upright" in kinds_of,
         "own_starts": own_starts(study),
         "drawings": {
             name: Markup(drawn_for(path.read_text("utf-8"), found))  # noqa: S704  a file of ours

@@ -4,7 +4,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from upswing.analysis import statistics
-from upswing.analysis.colours import colour, of_text
+from upswing.analysis.colours import colour, name_of, of_text
 from upswing.study.config import Study
 
 Row = dict[str, Any]
@@ -81,7 +81,7 @@ def step_size_numbers(cells: list[Row], study: Study) -> Row:
                 "axes": {one.label: one.axis for one in measures},
                 "lines": [
                     {
-                        "name": name,
+                        "name": name_of(name),
                         "modular": name in study.architectures
                         and study.architectures[name].is_modular,
                         "colour": colour(of[0]["cell"]),

@@ -8,14 +8,19 @@ from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from upswing.figures import FIGURES, NAMES, claims_of, drawable
+from upswing.analysis.colours import Shown, shown_of
+from upswing.figures import NAMES, claims_of, drawable, figures_of
+from upswing.figures.declaration import Declaration
+from upswing.figures.own import own_of
 from upswing.recordings.comparison_names import comparison_names
 from upswing.report.citation import FILE as CITATION
 from upswing.report.targets_of_sweeps import SWEPT, TargetsOfSweeps
 from upswing.runs.adopted import files_of
+from upswing.study import jobs
 from upswing.study.claims import Claim, canonical_claims, cells_of_claims
 from upswing.study.history_paths import ENTRIES
 from upswing.study.ids import KNOWN_FILE, file_of
+from upswing.study.own_figures import DeclaredFigure
 from upswing.study.paths import (
     BEYOND,
     BOUND,
@@ -79,12 +84,18 @@ class Targets(TargetsOfSweeps):
         Raises:
             BadInput: a figure that the study names itself shows a cell that it does not have.
         """
-        return drawable(self.matrix.cells, self.changes, self.study.figures)
+        return drawable(self.matrix.cells, self.changes, self.study.figure_names, self.declared)
 
     @cached_property
-    def shown_figures(self) -> list[str]:
-        """The names of the figures that the page shows or says are missing."""
-        return list(dict.fromkeys((*NAMES, *self.study.figures)))
+    def declared(self) -> Mapping[str, Declaration]:
+        """What each figure shows."""
+        return figures_of(self.study)
+
+    @cached_property
+    def project_figures(self) -> list[str]:
+        """The names of the project's figures that the page shows or says are missing."""
+        named = (name for name in self.study.figures if isinstance(name, str))
+        return list(dict.fromkeys((*NAMES, *named)))
 
     @cached_property
     def tables(self) -> list[str]:
@@ -158,22 +169,41 @@ class Targets(TargetsOfSweeps):
     def of_figure(self, name: str) -> list[str]:
         """What a figure is drawn from: its own cells and those of its claims, or whatever there is."""
         runs = self.of_cells(self.cells_of_figure(name))
-        adopted = [] if FIGURES[name].cells else self.adopted()
-        tiles = self.tiles if _asks_for_tiles(claims_of(name, self.claims)) else []
-        return [*runs, *adopted, *tiles, *self._below(*FIGURES[name].tables)]
+        adopted = [] if self.declared[name].cells else self.adopted()
+        tiles = self.tiles if _asks_for_tiles(self._decided_by(name)) else []
+        return [*runs, *adopted, *tiles, *self._below(*self.declared[name].tables)]
 
     def cells_of_figure(self, name: str) -> list[str]:
         """Its own cells with those of its claims that the study has, or all in the study's order."""
-        declared = FIGURES[name]
+        declared = self.declared[name]
         if not declared.cells:
             return list(self.matrix.cells)
-        of_claims = (cell for _, cell in cells_of_claims(claims_of(name, self.claims)))
+        of_claims = (cell for _, cell in cells_of_claims(self._decided_by(name)))
         shown = dict.fromkeys((*declared.cells, *declared.beside, *of_claims))
         return [cell for cell in shown if cell in self.matrix.cells]
 
     def words_of_figure(self, name: str) -> str:
-        """By what a figure judges: its claims, and readings that they ask for."""
-        return self._words(claims_of(name, self.claims))
+        """By what a figure judges, its claims and readings that they ask for; and what it declares."""
+        own = own_of(self.study).get(name)
+        declared = own.model_dump_json() if isinstance(own, DeclaredFigure) else ""
+        return declared + self._words(self._decided_by(name))
+
+    def code_of_figure(self, name: str) -> str:
+        """The fingerprint of the code that draws a figure."""
+        return jobs.figure(own_of(self.study).get(name, name)).fingerprint
+
+    def shown(self, cells: Iterable[str]) -> dict[str, Shown]:
+        """How the architectures of cells are shown, by name."""
+        named = dict.fromkeys(self.matrix.cells[cell].architecture.name for cell in cells)
+        return {name: self._shown[name] for name in named}
+
+    @cached_property
+    def _shown(self) -> dict[str, Shown]:
+        return shown_of(self.study)
+
+    def _decided_by(self, name: str) -> dict[str, Claim]:
+        """The claims that a figure decides: of a study that judges nothing, none."""
+        return claims_of(name, self.claims if self.study.judges else {})
 
     @cached_property
     def judged_cells(self) -> list[str]:

@@ -77,6 +77,11 @@ class Results:
         """The cells of the study by their ids, and behind them those that were adopted."""
         return joined(self.folder, self.study).cells
 
+    @property
+    def architectures(self) -> list[str]:
+        """The names of the architectures of its cells."""
+        return list(dict.fromkeys(spec.architecture.name for spec in self.cells.values()))
+
     @cached_property
     def runs(self) -> pd.DataFrame:
         """The table of runs, with a column ``cell``; ``BadInput`` if a run of the study is missing."""

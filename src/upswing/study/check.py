@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from upswing.study.claims import Claim, load_claims
+from upswing.study.claims import OF_THE_THESIS, Claim, file_of_claims, load_claims
 from upswing.study.config import Study, from_snakemake, load, validated
 from upswing.study.errors import BadInput
-from upswing.study.project_files import Files
+from upswing.study.project_files import Files, along
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import Sweep, load_sweeps
 
@@ -23,13 +23,13 @@ class Asked(NamedTuple):
 
 
 def checked(
-    config: Path, claims: Path, sweeps: Path, overlaid: Mapping[str, Any] | None = None
+    config: Path, claims: Path | None, sweeps: Path, overlaid: Mapping[str, Any] | None = None
 ) -> Study:
     """The study in ``config``; claims and sweeps are looked at where their files are there.
 
     Args:
         config: the configuration.
-        claims: the file of claims.
+        claims: the file of claims; without it, the study's own, or the thesis's.
         sweeps: the file of sweeps.
         overlaid: what Snakemake will be told beside the configuration, as ``--config``.
 
@@ -43,8 +43,9 @@ def checked(
     )
     if study is not None:
         _tried(problems, lambda: check_results(study.results, source))
-    if claims.exists():
-        _tried(problems, lambda: load_claims(claims, study))
+    judged = (claims or along(OF_THE_THESIS)) if study is None else file_of_claims(study, claims)
+    if judged.exists():
+        _tried(problems, lambda: load_claims(judged, study))
     if sweeps.exists() and study is not None:
         _tried(problems, lambda: load_sweeps(sweeps, study))
     if problems or study is None:
@@ -56,6 +57,8 @@ def asked(
     files: Sequence[str | Path], merged: Mapping[str, Any], claims: Path, sweeps: Path
 ) -> Asked:
     """The same for a run of Snakemake: its configuration files, and what ``--config`` laid over them.
+
+    ``claims`` are those of a study that names none of its own.
 
     Raises:
         BadInput: every problem of any of the files.
@@ -80,7 +83,8 @@ def asked_of_module(config: Mapping[str, Any], files: Files) -> Asked:
 def _asked(read: Callable[[], Study], source: str, claims: Path, sweeps: Path) -> Asked:
     problems: list[str] = []
     study = _tried(problems, read)
-    claimed = _tried(problems, lambda: load_claims(claims, study))
+    judged = claims if study is None else file_of_claims(study, otherwise=claims)
+    claimed = _tried(problems, lambda: load_claims(judged, study))
     swept = None
     if study is not None:
         _tried(problems, lambda: check_results(study.results, source))

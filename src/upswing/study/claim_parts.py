@@ -121,30 +121,48 @@ class Bound(Strict):
 class Part(Strict):
     """One thing that a claim says, as a comparison with a threshold."""
 
-    says: Text
-    kind: Kind
-    because: Text
-    measure: Measure | None = None
-    per: Measure | None = None  # of `ratio_of_sums`: what is divided by
-    cells: Cells = ()
-    each: Cells = ()  # the part once for each of these cells
-    each_pair: Annotated[tuple[Cells, ...], BeforeValidator(listed)] = ()  # … of these pairs
-    where: dict[Measure, Bound] = Field(
-        default_factory=dict
-    )  # what a run must fulfil to be counted
-    among: dict[Measure, Bound] = Field(default_factory=dict)  # which runs are looked at, of all
-    statistic: Literal["mean", "median", "interquartile_mean"] = "mean"
-    limit: Annotated[int, Field(ge=1)] | None = None  # of `share_by` [steps]
-    at_least: Number | None = None
-    at_most: Number | None = None
-    partly: Number
-    paired: bool = (
-        False  # of `difference_of_means`: runs of the same seed are the same but for this
+    says: Text = Field(description="What is compared, in words.")
+    kind: Kind = Field(description="What is estimated; docs/extend/claim.md explains each.")
+    because: Text = Field(description="The reason for the thresholds.")
+    measure: Measure | None = Field(
+        default=None, description="What is measured of each run: a column of the table of runs."
     )
-    fewest: Annotated[int, Field(ge=1)] = 1  # runs without which nothing is said
+    per: Measure | None = Field(default=None, description="Of `ratio_of_sums`: what is divided by.")
+    cells: Cells = Field(default=(), description="Ids of the cells that are compared.")
+    each: Cells = Field(default=(), description="The part once for each of these cells, instead.")
+    each_pair: Annotated[tuple[Cells, ...], BeforeValidator(listed)] = Field(
+        default=(), description="The part once for each of these pairs of cells, instead."
+    )
+    where: dict[Measure, Bound] = Field(
+        default_factory=dict,
+        description="Of shares: what a run must fulfil to be counted, each measure with `at_least`, "
+        "`at_most` or `below`.",
+    )
+    among: dict[Measure, Bound] = Field(
+        default_factory=dict,
+        description="Which runs are looked at, in the same way; without it, all.",
+    )
+    statistic: Literal["mean", "median", "interquartile_mean"] = Field(
+        default="mean", description="Of `location`."
+    )
+    limit: Annotated[int, Field(ge=1)] | None = Field(
+        default=None, description="Of `share_by`: by which step."
+    )
+    at_least: Number | None = Field(
+        default=None, description="From where on the part holds; this, or `at_most`."
+    )
+    at_most: Number | None = Field(default=None, description="Up to where the part holds.")
+    partly: Number = Field(description="From where on, or up to where, it holds partly.")
+    paired: bool = Field(
+        default=False,
+        description="Of `difference_of_means`: runs of the same seed are the same but for one thing.",
+    )
+    fewest: Annotated[int, Field(ge=1)] = Field(
+        default=1, description="Number of runs without which nothing is said."
+    )
     only_if: dict[str, str] = Field(
-        default_factory=dict
-    )  # readings under which the part is asked at all
+        default_factory=dict, description="Readings under which the part is asked at all."
+    )
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -1,42 +1,76 @@
-"""The claims C1–C16 as data: what is measured, from where on a claim holds, and the verdict.
+"""Claims as data: what is measured, from where on a claim holds, and the verdict.
 
-The claims themselves stand in ``config/claims.yaml``.
+Those of the thesis, C1–C16, stand in ``config/claims.yaml``; a study may name a file of its own.
 """
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 from pydantic import (
     BeforeValidator,
     Field,
     RootModel,
+    TypeAdapter,
     ValidationError,
     model_validator,
 )
 
 from upswing.study.claim_parts import Part
 from upswing.study.config import Study
-from upswing.study.errors import BadInput, explained
+from upswing.study.errors import BadInput, explained, near, problem
 from upswing.study.known_cells import check_cells
-from upswing.study.names import CellName, ClaimName, Text
+from upswing.study.names import CellName, ClaimName, Name, Text
+from upswing.study.project_files import along
 from upswing.study.values import Strict, listed
 from upswing.study.yaml_file import read_yaml
 
-if TYPE_CHECKING:  # the workflow reads claims, and need not wait for scipy
-    pass
+OF_THE_THESIS = Path("config/claims.yaml")
+"""The claims of a study that names none of its own."""
+
+
+def _shown_in(figure: Any) -> Any:
+    if isinstance(figure, bool) or not isinstance(figure, int | str | None):
+        raise ValueError(
+            "must be a figure of the thesis, 5 to 11, or the name of one of the study's"
+        )
+    if isinstance(figure, int) and not FIRST_FIGURE <= figure <= LAST_FIGURE:
+        raise ValueError(f"the thesis's figures of runs are {FIRST_FIGURE} to {LAST_FIGURE}")
+    return NAMED.validate_python(figure) if isinstance(figure, str) else figure
+
+
+NAMED = TypeAdapter[str](Name)
+
+
+FIRST_FIGURE, LAST_FIGURE = 5, 11
 
 
 class Claim(Strict):
-    """A claim of the thesis."""
+    """A claim: of the thesis, or of one's own."""
 
-    statement: Text
-    section: Text
-    figure: Annotated[int, Field(ge=5, le=11)] | None = None  # of the thesis
-    check: Text = ""  # why it is no evidence, but true by construction or proved
-    cell: CellName | None = None  # the cell whose worst, median and best run show it
-    note: Text = ""  # what a reader of the verdict must know
-    parts: Annotated[tuple[Part, ...], BeforeValidator(listed), Field(min_length=1)]
+    statement: Text = Field(min_length=1, description="What is said, in a sentence.")
+    section: Text = Field(
+        default="", description="Where it is said: a section of the thesis; nothing of one's own."
+    )
+    figure: Annotated[int | str | None, BeforeValidator(_shown_in)] = Field(
+        default=None,
+        description="The figure that shows what decides it: 5 to 11 of the thesis, or the name of one "
+        "of the study's own; none, where the key is left out.",
+    )
+    check: Text = Field(
+        default="",
+        description="Why it is no evidence, because it is true by construction or proved; only then.",
+    )
+    cell: CellName | None = Field(
+        default=None,
+        description="The cell whose worst, median and best run are shown side by side; none, where the "
+        "key is left out.",
+    )
+    note: Text = Field(default="", description="What a reader of the verdict must know.")
+    parts: Annotated[tuple[Part, ...], BeforeValidator(listed)] = Field(
+        min_length=1,
+        description="What is compared with which thresholds; it is as good as its weakest part.",
+    )
 
     @model_validator(mode="after")
     def _is_always_asked(self) -> Self:
@@ -52,12 +86,24 @@ class Claims(RootModel[Claimed]):
     """All claims by their ids."""
 
 
+def file_of_claims(study: Study, given: Path | None = None, otherwise: Path | None = None) -> Path:
+    """Where the claims of a study stand.
+
+    Args:
+        study: it may name a file of its own.
+        given: a file that is to be taken whatever the study names.
+        otherwise: the file where there is neither; without it, the thesis's.
+    """
+    own = Path(study.claims) if study.claims else None
+    return given or own or otherwise or along(OF_THE_THESIS)
+
+
 def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
     """The claims written in a YAML file.
 
     Raises:
         BadInput: all that is wrong with them; with a ``study``, also cells that neither it nor another
-            configuration beside the file has.
+            configuration beside the file has, and figures that it does not have.
     """
     content: dict[str, Any] = read_yaml(path)
     try:
@@ -66,7 +112,18 @@ def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
         raise BadInput(explained(Claims, error, lambda *_: str(path))) from None
     if study is not None:
         check_cells(dict(cells_of_claims(claims)), study, path)
+        if unknown := list(_unknown_figures(claims, study, path)):
+            raise BadInput(unknown)
     return claims
+
+
+def _unknown_figures(claims: Mapping[str, Claim], study: Study, path: Path) -> Iterator[str]:
+    """Claims that name a figure which the study does not have."""
+    for name, claim in claims.items():
+        if isinstance(claim.figure, str) and claim.figure not in study.figure_names:
+            there = study.figure_names or ("none",)
+            right = f"no figure of this study; {near(claim.figure, there)}"
+            yield problem(str(path), f"{name}.figure", claim.figure, right)
 
 
 def cells_of_claims(claims: Mapping[str, Claim]) -> Iterator[tuple[str, str]]:

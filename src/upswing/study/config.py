@@ -1,18 +1,21 @@
 """What the user wrote: the study as a typed value; unknown keys are refused."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationError
 
-from upswing.study.architecture import AnyArchitecture
-from upswing.study.declared import part_name
 from upswing.study.errors import BadInput, explained, near, problem
-from upswing.study.extends import joined, sources_of
+from upswing.study.extends import Content, joined, sources_of
+from upswing.study.ids import cell_id
 from upswing.study.names import Alpha, Name, Text, alpha_text
+from upswing.study.own_figures import AnyFigures, contradictions, figure_name
+from upswing.study.own_files import placed
 from upswing.study.physical import PendulumOptions
 from upswing.study.readings import Readings
+from upswing.study.shown import AnyShownArchitecture
 from upswing.study.task import AnyTask
 from upswing.study.values import MOST_RUNS, Discount, Seeds, Share, Steps, Strict, listed, once
 
@@ -85,6 +88,20 @@ class Search(Strict):
 class Study(Strict):
     """A study: everything `make reproduce` computes."""
 
+    title: Text = Field(
+        default="",
+        max_length=150,
+        description="The title of its page: what the study asks. Without one, what learns at what.",
+    )
+    about: Text = Field(
+        default="",
+        max_length=1_500,
+        description="What its page says first: what differs, and what to look at.",
+    )
+    judges: bool = Field(
+        default=True,
+        description="Whether its page judges claims; few seeds and short runs say too little for that.",
+    )
     results: Annotated[str, AfterValidator(_folder)] = Field(
         default="results", min_length=1, max_length=1_000, description="Folder of the results."
     )
@@ -97,17 +114,23 @@ class Study(Strict):
     epsilon: Share = Field(default=0.01, description="Share ε of random actions (§4.4).")
     discount: Discount = Field(default=0.7, description="Discount γ (§4.5.1).")
     tasks: dict[Name, AnyTask] = Field(min_length=1, description="Tasks by name.")
-    architectures: dict[Name, AnyArchitecture] = Field(
+    architectures: dict[Name, AnyShownArchitecture] = Field(
         min_length=1, description="Architectures by name."
     )
     experiments: Annotated[tuple[Experiment, ...], BeforeValidator(listed)] = Field(
         min_length=1, description="The cells of the matrix."
     )
-    figures: Annotated[
-        tuple[Annotated[str, part_name("figures")], ...], BeforeValidator(listed), once
-    ] = Field(
+    figures: AnyFigures = Field(
         default=(),
-        description="Own figures; those of the thesis are drawn wherever their cells are.",
+        description="Own figures, each a name (of `figures/NAME.py` beside this file, or in "
+        "src/upswing/figures) or made of ready panels; those of the thesis are drawn wherever their "
+        "cells are.",
+    )
+    claims: Text = Field(
+        default="",
+        max_length=1_000,
+        description="The file of its own claims, beside this file or below; without it, the claims of "
+        "the thesis are judged.",
     )
     search: Search | None = Field(
         default=None, description="A search for what succeeds every time, and how soon."
@@ -116,23 +139,55 @@ class Study(Strict):
         default_factory=Readings, description="What the thesis leaves open (R1–R15)."
     )
 
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """The names of its own figures."""
+        return tuple(map(figure_name, self.figures))
+
+
+def narrowed(study: Study) -> Study:
+    """A study with no more tasks and architectures than its experiments name; tasks in their order.
+
+    One that extends another has all of its tasks, and need not run any of them.
+    """
+    tasks = dict.fromkeys(name for one in study.experiments for name in one.tasks)
+    names = {name for one in study.experiments for name in one.architectures}
+    return study.model_copy(
+        update={
+            "tasks": {name: study.tasks[name] for name in tasks},
+            "architectures": {
+                name: one for name, one in study.architectures.items() if name in names
+            },
+        }
+    )
+
 
 def pendulum_of_bound(study: Study) -> PendulumOptions:
     """The pendulum that the bound of a study is about: that of its first task of full control."""
-    upright = (task for task in study.tasks.values() if task.judged_by == "upright")
+    upright = (task for task in narrowed(study).tasks.values() if task.judged_by == "upright")
     return next((task.pendulum for task in upright), PendulumOptions())
 
 
 def load(path: Path) -> Study:
     """The study written in a YAML file; ``BadInput`` with all its problems otherwise."""
     sources = sources_of(path)
-    return validated({str(path): joined(sources)}, written=sources)
+    problems: list[str] = []
+    return validated({str(path): joined(_placed(sources, problems))}, sources, problems)
+
+
+def _placed(sources: Mapping[str, Content], problems: list[str]) -> dict[str, Content]:
+    """Configurations by their files, with the files that they name as paths from here."""
+    return {
+        file: placed(file, content, Path(file).parent, problems)
+        for file, content in sources.items()
+    }
 
 
 def from_snakemake(files: Sequence[str | Path], merged: Mapping[str, Any]) -> Study:
     """The study of a Snakemake run: its configuration files, and what ``--config`` laid over them."""
     written = {file: sources_of(Path(file)) for file in map(str, files)}
-    contents = {file: joined(sources) for file, sources in written.items()}
+    problems: list[str] = []
+    contents = {file: joined(_placed(sources, problems)) for file, sources in written.items()}
     said = [content for sources in written.values() for content in sources.values()]
     overlaid = {
         key: value
@@ -140,9 +195,10 @@ def from_snakemake(files: Sequence[str | Path], merged: Mapping[str, Any]) -> St
         if not any(content.get(key) == value for content in said)
     }
     first = _number_of_seeds(overlaid)
-    overlay = {COMMAND_LINE: overlaid} if overlaid else {}
+    beside = Path(files[-1]).parent if files else Path()
+    overlay = {COMMAND_LINE: placed(COMMAND_LINE, overlaid, beside, problems)} if overlaid else {}
     sources = {name: content for of in written.values() for name, content in of.items()}
-    study = validated({**contents, **overlay}, written={**sources, **overlay})
+    study = validated({**contents, **overlay}, {**sources, **overlay}, problems)
     return study if first is None else with_first_seeds(study, first)
 
 
@@ -172,12 +228,14 @@ def with_first_seeds(study: Study, number: int) -> Study:
 def validated(
     contents: Mapping[str, Mapping[str, Any]],
     written: Mapping[str, Mapping[str, Any]] | None = None,
+    problems: Sequence[str] = (),
 ) -> Study:
     """The study in several sources, each replacing whole keys of those before it.
 
     Args:
         contents: what they say by name.
         written: what stands in the files themselves, where one extends another: whom a problem names.
+        problems: what is known to be wrong already.
     """
     data = {key: value for content in contents.values() for key, value in content.items()}
     files = contents if written is None else written
@@ -190,11 +248,12 @@ def validated(
     try:
         study = Study.model_validate(data)
     except ValidationError as error:
-        raise BadInput(explained(Study, error, source_of)) from None
-    problems = list(_contradictions(study, source_of("experiments")))
-    problems += _contradictions_of_search(study, source_of("search"))
-    if problems:
-        raise BadInput(problems)
+        raise BadInput([*problems, *explained(Study, error, source_of)]) from None
+    found = [*problems, *_contradictions(study, source_of("experiments"))]
+    found += _contradictions_of_search(study, source_of("search"))
+    found += contradictions(study.figures, _cells(study), source_of("figures"))
+    if found:
+        raise BadInput(found)
     return study
 
 
@@ -243,6 +302,15 @@ def _contradictions(study: Study, source: str) -> Iterator[str]:
     if (runs := sum(map(len, own))) > MOST_RUNS:
         right = f"{len(cells)} cells come to {runs:,} runs; a study has at most {MOST_RUNS:,}"
         yield problem(source, "seeds", len(study.seeds), right)
+
+
+def _cells(study: Study) -> set[str]:
+    """The ids of all cells."""
+    return {
+        cell_id(*of)
+        for one in study.experiments
+        for of in product(one.tasks, one.architectures, one.alphas or (None,))
+    }
 
 
 def _contradictions_of_search(study: Study, source: str) -> Iterator[str]:

@@ -1,7 +1,8 @@
 """A configuration that extends another, key ``extends``: it says only what differs.
 
 A mapping (tasks, architectures, readings, a pendulum) is joined key by key; anything else, a list too,
-stands in place of what was there.
+stands in place of what was there. What a page says of a study, its title for one, is said of none that
+extends it.
 """
 
 from collections.abc import Mapping
@@ -12,6 +13,8 @@ from upswing.study.errors import BadInput, problem
 from upswing.study.yaml_file import read_yaml
 
 KEY = "extends"
+OF_ONE_ALONE = ("title", "about")
+"""Keys that are about the study of their own file and no other."""
 
 Content = dict[str, Any]
 
@@ -54,7 +57,8 @@ def joined(contents: Mapping[str, Content]) -> Content:
     """What several files say together, each over those before it."""
     whole: Content = {}
     for content in contents.values():
-        whole = _over(whole, content)
+        inherited = {key: value for key, value in whole.items() if key not in OF_ONE_ALONE}
+        whole = _over(inherited, content)
     whole.pop(KEY, None)
     return whole
 

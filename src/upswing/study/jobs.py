@@ -6,6 +6,7 @@ statement shows, so it is said here; ``tests/workflow/test_jobs.py`` runs every 
 
 from collections.abc import Iterable
 from itertools import product
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from upswing.study.architecture import architecture_of
@@ -15,9 +16,15 @@ from upswing.study.config import Study
 from upswing.study.fingerprint import COMPUTING_PACKAGES
 from upswing.study.loading import module_of
 from upswing.study.matrix import Matrix, searched
+from upswing.study.own_code import OwnCode
+from upswing.study.own_figures import FigureFile, OwnFigure
 
 if TYPE_CHECKING:
     from upswing.study.sweeps import Sweep
+
+
+FROM_PANELS = "upswing.figures.from_panels"
+"""What draws figures that are declared, loaded by name so that no other figure depends on it."""
 
 
 def sweep(swept: "Sweep", study: Study) -> Code:
@@ -51,9 +58,14 @@ def tiles() -> Code:
     return learning("upswing.optimal.represented", used=product([table], ["full-control"]))
 
 
-def figure(name: str) -> Code:
-    """The code that draws a figure."""
-    return Code(("upswing.figures", module_of("figures", name)), ("matplotlib", "scipy"))
+def figure(figure: str | OwnFigure) -> Code | OwnCode:
+    """The code that draws a figure: of the project, by its name, or of a study's own."""
+    drawing = ("matplotlib", "scipy")
+    if isinstance(figure, str):
+        return Code(("upswing.figures", module_of("figures", figure)), drawing)
+    if isinstance(figure, FigureFile):
+        return OwnCode(Path(figure.file), ("upswing.figures", "upswing.figures.panels"), drawing)
+    return Code(("upswing.figures", FROM_PANELS), drawing)
 
 
 def page(figures: Iterable[str]) -> Code:

@@ -9,7 +9,7 @@ from upswing.study.declared import Family, own_options
 from upswing.study.loading import parts
 from upswing.study.task import TASKS
 
-FAMILIES: dict[str, Family[Any]] = {"Architecture": ARCHITECTURES, "Task": TASKS}
+FAMILIES: dict[str, Family[Any]] = {"ShownArchitecture": ARCHITECTURES, "Task": TASKS}
 """The definitions whose keys depend on what is chosen."""
 
 

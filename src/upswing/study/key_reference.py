@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+from upswing.study.claims import Claims
 from upswing.study.json_schema import schema, sections_of_options
 from upswing.study.registration import Entry, Registered
 from upswing.study.sweeps import Report, Round, Sweep
@@ -31,9 +32,14 @@ options of their own, which stand beside the keys above. They are declared in th
 class `Options`.
 """
 
-SWEEPS_HEAD = """\
-`claims.yaml` says what each claim measures and from where on it holds; its head explains the words.
+CLAIMS_HEAD = """\
+`claims.yaml` says what each claim of the thesis measures and from where on it holds; its head explains
+the words. A file of your own, which `claims` names, has the same keys; `docs/extend/claim.md` is a
+worked example.
 
+"""
+
+SWEEPS_HEAD = """\
 `readings.yaml` says what `make readings` runs under other readings. Each sweep judges the claims whose
 cells it has; the sweep named `networks` also chooses the networks' default.
 
@@ -58,13 +64,20 @@ def reference() -> str:
         "TrackOptions": "The track of the cart, below `track` of a task",
         "StartOptions": "The starts, below `start` of a task",
         "TileOptions": "The tiles, below `tiles` of a task",
-        "Architecture": "An architecture, below `architectures.<name>`",
+        "ShownArchitecture": "An architecture, below `architectures.<name>`",
         "Experiment": "An experiment, an item of `experiments`",
+        "DeclaredFigure": "A figure of ready panels, an item of `figures`",
+        "DeclaredPanel": "A panel, an item of `panels` of a figure",
         "Readings": "Readings, below `readings`",
     }
     sections += [_section(title, definitions[name]) for name, title in titles.items()]
     sections.append(OPTIONS_HEAD)
     sections += [_section(title, options) for title, options in sections_of_options()]
+    claim = Claims.model_json_schema()["$defs"]
+    sections.append(
+        CLAIMS_HEAD + _section("A claim, below `<name>` in a file of claims", claim["Claim"])
+    )
+    sections.append(_section("A part of a claim, an item of `parts`", claim["Part"]))
     sweep = Sweep.model_json_schema()
     sections.append(SWEEPS_HEAD + _section("A sweep, below `<name>` in `readings.yaml`", sweep))
     report, one = Report.model_json_schema(), Round.model_json_schema()

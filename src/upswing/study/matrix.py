@@ -9,6 +9,7 @@ from pathlib import Path
 from upswing.study.architecture import architecture_named
 from upswing.study.config import Experiment, Study
 from upswing.study.ids import KNOWN_FILE, cell_id, file_of
+from upswing.study.shown import HOW_SHOWN
 from upswing.study.spec import Spec
 from upswing.study.task import task_named
 
@@ -82,10 +83,11 @@ class Matrix:
         """The specification of a task, an architecture and a step size, for some seeds."""
         study, architecture = self.study, self.study.architectures[name]
         epsilon, discount = architecture.epsilon, architecture.discount
+        learning = {key: value for key, value in architecture if key not in HOW_SHOWN}
         return Spec(
             task=task_named(task, **dict(study.tasks[task])),
             architecture=architecture_named(
-                name, **{**dict(architecture), "epsilon": None, "discount": None}
+                name, **{**learning, "epsilon": None, "discount": None}
             ),
             alpha=alpha,
             seeds=tuple(sorted(seeds)),

@@ -7,7 +7,7 @@ from tests.helpers import ARCHITECTURES
 from upswing.analysis.aggregate import write_tables
 from upswing.figures import panels, told
 from upswing.figures.labels import steps_axis
-from upswing.figures.lengths import grid_of, in_steps, step_label
+from upswing.figures.lengths import end_of, grid_of, in_steps, step_label
 from upswing.figures.measures import axis_of
 from upswing.figures.style import plt
 from upswing.runs.results import Results
@@ -26,8 +26,8 @@ CELL = "full-control/table/alpha-0.001"
 CELLS = [CELL, "balancing/table/alpha-1", "full-control/modular-table/alpha-0.001"]
 
 
-def task(name="full-control", **keys):
-    return task_named(name, kind="full-control", steps=1_000, **keys)
+def task(name="full-control", kind="full-control", steps=1_000_000, **keys):
+    return task_named(name, kind=kind, steps=steps, **keys)
 
 
 THESIS, SLOW = task(), task(pendulum={"time_step": 0.01})
@@ -44,6 +44,17 @@ def test_a_stretch_of_the_thesis_is_the_same_time_in_other_steps():
     assert in_steps(100_000, [THESIS]) == in_steps(100_000, []) == "100,000 steps"
     assert in_steps(100_000, [SLOW, SLOW]) == "50,000 steps"
     assert in_steps(100_000, [SLOW, THESIS]) == "500 s"
+
+
+def test_the_end_is_the_last_fifth_of_a_run_that_is_short():
+    short, shorter = task(steps=300_000), task(steps=20_000)
+    assert end_of([]) == end_of([THESIS, task(steps=5_000_000)]) == "100,000 steps"
+    assert end_of([task(kind="balancing", steps=50_000), THESIS]) == "100,000 steps"
+    assert end_of([SLOW]) == "50,000 steps"
+    assert end_of([SLOW, THESIS]) == "500 s"
+    assert end_of([short]) == "60,000 steps"
+    assert end_of([short, shorter]) == "fifth"
+    assert end_of([THESIS, short]) == "fifth or 100,000 steps, whichever is shorter"
 
 
 def test_a_measure_says_of_which_steps_it_is():
@@ -95,8 +106,14 @@ def test_figures_are_drawn_of_another_pendulum_and_say_so(own, claims):
         ("fig05", ("12 × 30 tiles", "in the first 1,250 steps")),
         ("fig08", ("12 × 30 tiles", "90 % of 2,500 steps in a row")),
         ("fig10", ("two tables of 6 × 30 tiles",)),
-        ("overview", ("90 % of their last 50,000 steps",)),
-        ("step-sizes", ("90 % of the last 50,000 steps",)),
+        (
+            "overview",
+            (
+                "that balance",
+                "90 % of their last 1,200 steps",
+            ),
+        ),
+        ("step-sizes", ("90 % of the last 1,200 steps",)),
         ("learning-curves", ()),
     ):
         drawing = drawn(name, own, claims)

@@ -68,4 +68,4 @@ def test_of_a_long_history_the_newest_are_shown(folder):
 
 
 def test_without_a_history_there_is_nothing_to_show(tmp_path):
-    assert history(tmp_path) == {"entries": [], "older": 0, "claims": []}
+    assert history(tmp_path) == {"entries": [], "older": 0, "judges": True, "claims": []}

@@ -30,7 +30,9 @@ STRONG = {"length": 0.4, "accelerations": [-20, -10, 0, 10, 20], "time_step": 0.
 
 
 def study_of(**tasks):
-    kinds = {name: {"kind": "full-control", "steps": 1_000, **keys} for name, keys in tasks.items()}
+    kinds = {
+        name: {"kind": "full-control", "steps": 1_000_000, **keys} for name, keys in tasks.items()
+    }
     return validated({"study": {
         "seeds": 1, "tasks": kinds, "architectures": {"table": {"learner": "table"}},
         "experiments": [{"tasks": list(tasks), "architectures": ["table"], "alphas": [0.1]}],

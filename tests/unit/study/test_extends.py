@@ -83,3 +83,14 @@ def test_so_it_is_of_the_file_that_is_extended(folder):
     with pytest.raises(BadInput) as error:
         load(folder / "mine.yaml")
     assert error.value.problems[0].startswith(f"{folder / 'base.yaml'}: tasks.balancing.kind")
+
+
+def test_what_a_page_says_of_a_study_is_said_of_none_that_extends_it(folder):
+    said = 'title: "Does it fall?"\nabout: It balances.\njudges: false\n'
+    (folder / "base.yaml").write_text(BASE + said)
+    base, mine = load(folder / "base.yaml"), load(folder / "mine.yaml")
+    assert (base.title, base.about, base.judges) == ("Does it fall?", "It balances.", False)
+    assert (mine.title, mine.about) == ("", "")
+    assert not mine.judges  # it has as few seeds
+    (folder / "mine.yaml").write_text(MINE + "title: Mine\n")
+    assert load(folder / "mine.yaml").title == "Mine"

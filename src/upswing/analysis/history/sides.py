@@ -28,8 +28,8 @@ DIGITS = 6
 TIMED = ("steps_per_second_median",)
 """Columns of cells that are never the same twice."""
 
-NOT_ASKED = ("results",)
-"""Keys of a study that say where it is kept, not what is asked."""
+NOT_ASKED = ("results", "claims")
+"""Keys of a study that say where it, or what it is judged by, is kept: not what is asked."""
 
 
 class Side(NamedTuple):

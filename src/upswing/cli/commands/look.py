@@ -5,7 +5,6 @@ from typing import Annotated, Any
 import typer
 
 from upswing.cli.options import (
-    CLAIMS,
     TEMPLATES,
     AskedStudy,
     Claims,
@@ -13,6 +12,7 @@ from upswing.cli.options import (
     Positional,
     Templates,
     asked_study,
+    claims_of,
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
@@ -25,7 +25,7 @@ def verdicts(
     positional: Positional = None,
     results: Named = None,
     study: AskedStudy = "",
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
     templates: Templates = TEMPLATES,
     details: Annotated[
         bool, typer.Option("--details", help="Also say what is measured, where, and how.")
@@ -36,13 +36,12 @@ def verdicts(
     from upswing.analysis.verdicts import write_verdicts
     from upswing.cli.shown.verdicts import print_verdicts
     from upswing.runs.results import OwnRuns
-    from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
     found = OwnRuns(folder, asked_study(study))
-    judged = load_claims(claims, found.study)
+    judged = claims_of(found.study, claims)
     over, _ = over_readings(folder, templates, judged)
-    print_verdicts(write_verdicts(found, judged, over), details)
+    print_verdicts(write_verdicts(found, judged, over), details, found.study.judges)
 
 
 def _figures() -> list[str]:
@@ -72,19 +71,18 @@ def figure(
     positional: Positional = None,
     results: Named = None,
     study: AskedStudy = "",
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
 ) -> None:
     """Draw a figure from the results, as SVG and PNG."""
     from upswing.figures import FIGURES, draw, named
     from upswing.runs.results import OwnRuns
 
-    name = named(name)
     found = OwnRuns(results_folder(results, positional), asked_study(study))
+    own = [one for one in found.study.figure_names if one not in list(FIGURES)]
+    name = named(name, [*FIGURES, *own])
     judged = None
-    if FIGURES[name].number:  # one of the thesis, which shows what decides its claims
-        from upswing.study.claims import load_claims
-
-        judged = load_claims(claims, found.study)
+    if name in own or FIGURES[name].number:  # which shows what decides the claims that name it
+        judged = claims_of(found.study, claims, checked=False)
     draw(name, found, judged)
 
 

@@ -7,7 +7,6 @@ from typing import Annotated
 import typer
 
 from upswing.cli.options import (
-    CLAIMS,
     SWEEPS,
     TEMPLATES,
     Claims,
@@ -15,6 +14,7 @@ from upswing.cli.options import (
     Positional,
     Sweeps,
     Templates,
+    claims_of,
     needs_checkout,
     results_folder,
 )
@@ -24,7 +24,7 @@ panel = Panel("Maintain")
 
 
 @panel.subcommand("doctor")
-def doctor(positional: Positional = None, results: Named = None, claims: Claims = CLAIMS) -> int:
+def doctor(positional: Positional = None, results: Named = None, claims: Claims = None) -> int:
     """Check that a folder of results is whole; says what to delete where it is not."""
     from upswing.analysis.doctor import examine
     from upswing.cli.shown.folders import print_diagnosis
@@ -58,21 +58,20 @@ def readme(
     readme: Annotated[Path, typer.Option(metavar="FILE", help="The file that is renewed.")] = Path(
         "README.md"
     ),
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Renew what the README shows of the results."""
     from upswing.report.readme import write_readme
     from upswing.runs.study_file import read_study
     from upswing.study import jobs
-    from upswing.study.claims import load_claims
     from upswing.study.registration import of
     from upswing.study.sweeps import load_sweeps
 
     needs_checkout("upswing readme", templates, readme)
     folder = results_folder(results, positional)
     study = read_study(folder)
-    judged, swept = load_claims(claims, study), load_sweeps(sweeps, study)
+    judged, swept = claims_of(study, claims), load_sweeps(sweeps, study)
     codes = {f"code of {name}": jobs.sweep(one, study).fingerprint for name, one in swept.items()}
     made_from = {"sweeps": of(study, judged, swept).sweeps, **codes}
     write_readme(folder, templates, readme, judged, made_from)

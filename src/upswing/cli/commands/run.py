@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import CLAIMS, CONFIG, SWEEPS, Claims, Sweeps, or_along
+from upswing.cli.options import CONFIG, SWEEPS, Claims, Sweeps, or_along
 from upswing.cli.panel import Panel
 
 panel = Panel("Run")
@@ -47,7 +47,7 @@ def check(
             help="The configuration.", autocompletion=_configurations, callback=or_along
         ),
     ] = CONFIG,
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
     sweeps: Sweeps = SWEEPS,
     begin: Annotated[
         bool,

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from upswing.cli.options import (
-    CLAIMS,
     SWEEPS,
     TEMPLATES,
     AskedStudy,
@@ -17,6 +16,7 @@ from upswing.cli.options import (
     Sweeps,
     Templates,
     asked_study,
+    claims_of,
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
@@ -86,29 +86,27 @@ def comparison(
     positional: Positional = None,
     results: Named = None,
     study: AskedStudy = "",
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
 ) -> None:
     """Write a recording that compares runs: all of a task, or those that show a claim."""
     from upswing.recordings.comparison import write_comparison
     from upswing.runs.results import OwnRuns
-    from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
     found = OwnRuns(folder, asked_study(study))
-    print(write_comparison(found, load_claims(claims), name))
+    print(write_comparison(found, claims_of(found.study, claims, checked=False), name))
 
 
 @panel.subcommand("comparisons", cls=Job)
 def comparisons(
-    positional: Positional = None, results: Named = None, claims: Claims = CLAIMS
+    positional: Positional = None, results: Named = None, claims: Claims = None
 ) -> None:
     """Write all recordings that compare runs."""
     from upswing.recordings.comparison import write_comparisons
     from upswing.runs.results import OwnRuns
-    from upswing.study.claims import load_claims
 
     found = OwnRuns(results_folder(results, positional))
-    for path in write_comparisons(found, load_claims(claims)):
+    for path in write_comparisons(found, claims_of(found.study, claims, checked=False)):
         print(path)
 
 
@@ -117,17 +115,16 @@ def viewer(
     positional: Positional = None,
     results: Named = None,
     study: AskedStudy = "",
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
     templates: Templates = TEMPLATES,
 ) -> None:
     """Write report/viewer: the report's recordings, to open without a server."""
     from upswing.recordings.viewer import write_viewer
     from upswing.runs.results import OwnRuns
-    from upswing.study.claims import load_claims
 
     folder = results_folder(results, positional)
     found = OwnRuns(folder, asked_study(study))
-    for name in write_viewer(found, load_claims(claims), templates):
+    for name in write_viewer(found, claims_of(found.study, claims, checked=False), templates):
         print(name)
 
 
@@ -254,18 +251,17 @@ def readings(
     results: Named = None,
     study: AskedStudy = "",
     sweeps: Sweeps = SWEEPS,
-    claims: Claims = CLAIMS,
+    claims: Claims = None,
 ) -> None:
     """Judge every claim under every reading of the sweeps, and choose the networks' default."""
     from upswing.analysis.robustness.write import write_readings
     from upswing.cli.shown.readings import print_robustness
     from upswing.figures.readings import draw_readings
     from upswing.runs.study_file import read_study
-    from upswing.study.claims import load_claims
     from upswing.study.sweeps import load_sweeps
 
     folder = results_folder(results, positional)
     asked = asked_study(study) or read_study(folder)
-    swept, judged = load_sweeps(sweeps, asked), load_claims(claims, asked)
+    swept, judged = load_sweeps(sweeps, asked), claims_of(asked, claims)
     print_robustness(write_readings(folder, swept, judged, asked))
     draw_readings(folder, swept)

@@ -19,8 +19,14 @@ COLOURS = {
 HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "the thesis says")
 
 
-def print_verdicts(verdicts: pd.DataFrame, details: bool = False) -> None:
-    """Print a row for each claim, below it what more is known of it, and how many have which verdict."""
+def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool = True) -> None:
+    """Print a row for each claim, below it what more is known of it, and how many have which verdict.
+
+    Args:
+        verdicts: the table.
+        details: whether to say what is known of each.
+        judges: whether the study says of itself that its runs are enough to judge by.
+    """
     found = [{str(key): value for key, value in row.items()} for row in verdicts.to_dict("records")]
     print_table(
         HEADER,
@@ -34,6 +40,10 @@ def print_verdicts(verdicts: pd.DataFrame, details: bool = False) -> None:
     counts = ", ".join(f"{shown[each]} {each}" for each in COLOURS if shown[each])
     more = "" if details else "; --details says what was measured"
     say(f"{len(found)} claims: {counts}{more}")
+    if not judges:
+        say(
+            "nothing of this counts: the study has `judges: false`, its runs are too few or too short"
+        )
 
 
 def _cells(row: dict[str, Any]) -> tuple[str, ...]:

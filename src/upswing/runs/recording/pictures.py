@@ -153,7 +153,7 @@ def draw_phase_plane(
 
 
 def trail(time_step: float) -> tuple[int, int]:
-    """The length of the trail, and of a part of its line, for steps of ``time_step`` [s] [drawings]."""
+    """The length of the trail and of a part of its line, in drawings, for steps of ``time_step`` [s]."""
     drawings = max(1, so_long(TRAIL, time_step) // drawn_every(time_step))
     part = max(1, -(-drawings // TRAIL_POINTS))
     return drawings - drawings % part, part
