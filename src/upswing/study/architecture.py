@@ -16,6 +16,9 @@ from upswing.study.values import Discount, Share, Strict
 Features = Literal["tile", "tiles", "state"]
 """What a feature encoder says of a state: the tile that it lies in, several that overlap, or (φ, φ̇)."""
 
+Content = Literal["values", "policy"]
+"""What a learner holds: the values of actions, or a map from states to actions (§3.3)."""
+
 
 class Architecture(Strict):
     """What learns, and from what (§4.4–4.6)."""
@@ -43,6 +46,12 @@ class Architecture(Strict):
 
     gives: ClassVar[Features] = "tile"
     """What a feature encoder gives."""
+
+    holds: ClassVar[Content] = "values"
+    """What a learner holds."""
+
+    improves: ClassVar[Content] = "values"
+    """What an algorithm improves."""
 
     learns: ClassVar[bool] = True
     """Whether there is anything to learn, and so a step size α."""
@@ -82,6 +91,15 @@ class Architecture(Strict):
                 f"`coding: {self.coding}` gives {MEANING[self.gives]}; {self.learner} takes "
                 f"{' or '.join(MEANING[features] for features in self.takes)}"
             )
+        if self.holds != self.improves:
+            raise ValueError(
+                f"`method: {self.method}` improves {HELD[self.improves]}; {self.learner} holds "
+                f"{HELD[self.holds]}"
+            )
+        if self.holds == "policy" and self.epsilon != 0:
+            raise ValueError(
+                f"{self.learner} draws its actions by probabilities of its own; write `epsilon: 0`"
+            )
         for part in type(self).__mro__:
             if "check" in vars(part):
                 part.check(self)  # type: ignore[attr-defined]
@@ -93,6 +111,8 @@ MEANING: dict[Features, str] = {
     "tiles": "several tiles at once",
     "state": "the state itself",
 }
+
+HELD: dict[Content, str] = {"values": "values of actions", "policy": "a policy"}
 
 
 class NamedArchitecture(Architecture):
