@@ -24,7 +24,7 @@ from upswing.agents.learners import (
     values,
     values_of,
 )
-from upswing.agents.learners.softmax import learned_by, part
+from upswing.agents.learners.softmax import actor_of, critic_of, learned_by
 from upswing.agents.policy import Q, Rule, drawn, epsilon_greedy, softmax
 from upswing.physics.jit import inlined, with_item
 from upswing.study.actor import ActorOptions
@@ -125,7 +125,7 @@ class GaussianLearner:
 def create(beginning: Beginning) -> GaussianLearner:
     """An actor and a critic with one output each, drawn in this order."""
     options = beginning.options
-    actor, critic = part(beginning, 1), part(beginning, 1)
+    actor, critic = actor_of(beginning, 1), critic_of(beginning)
     return GaussianLearner(
         actor, critic, float(options["rate"]), float(options["width"]), beginning.accelerations
     )

@@ -100,8 +100,20 @@ def learned_by(actor: Learner, critic: Learner) -> Mapping[str, NDArray[Any]]:
     }
 
 
-def part(beginning: Beginning, outputs: int) -> Learner:
-    """Networks with ``hidden`` layers, or tables where there are none, with so many outputs."""
+def actor_of(beginning: Beginning, outputs: int) -> Learner:
+    """Networks with ``hidden`` layers, or tables of zero where there are none, with so many outputs.
+
+    R5 is about a first Q, and this is none.
+    """
+    return _part(beginning._replace(lowest_q=0.0), outputs)
+
+
+def critic_of(beginning: Beginning) -> Learner:
+    """The same with one output, V(s); a table begins as R5 says of Q."""
+    return _part(beginning, 1)
+
+
+def _part(beginning: Beginning, outputs: int) -> Learner:
     name = ActorOptions.part(beginning.options["hidden"])
     plan = beginning._replace(accelerations=(0.0,) * outputs)
     learner: Learner = load("learners", name).create(plan)
@@ -110,5 +122,5 @@ def part(beginning: Beginning, outputs: int) -> Learner:
 
 def create(beginning: Beginning) -> SoftmaxLearner:
     """An actor with an output for each action and a critic with one, drawn in this order."""
-    actor, critic = part(beginning, beginning.actions), part(beginning, 1)
+    actor, critic = actor_of(beginning, beginning.actions), critic_of(beginning)
     return SoftmaxLearner(actor, critic, float(beginning.options["rate"]))
