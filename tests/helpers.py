@@ -63,7 +63,7 @@ def beyond_spec(
     """A specification with parts beyond the thesis: options of the architecture by name."""
     return Spec(
         task=task_named(kind, kind=kind, steps=steps, **(task or {})),
-        architecture=architecture_named("beyond", learner=learner, epsilon=epsilon, **options),
+        architecture=architecture_named("beyond", learner=learner, **options),
         alpha=alpha,
         seeds=(0,),
         epsilon=epsilon,

@@ -8,7 +8,9 @@ from tests.oracles.textbook import World
 
 
 def _drawn(world, preferences):
-    return int(np.searchsorted(np.cumsum(softmax(preferences))[:-1], world.actions.random(), "right"))
+    return int(
+        np.searchsorted(np.cumsum(softmax(preferences))[:-1], world.actions.random(), "right")
+    )
 
 
 def _learn(preferences, v, s, a, error, alpha, rate):

@@ -25,7 +25,7 @@ class Waiting(NamedTuple):
     angular_velocity: Array  # φ̇ [rad/s]
     action: NDArray[np.int64]
     reward: Array  # in R3's unit
-    count: NDArray[np.int64]  # how many steps wait: (1,)
+    waiting: NDArray[np.int64]  # how many steps wait: (1,)
 
 
 class Visit(NamedTuple):
@@ -39,33 +39,33 @@ class Visit(NamedTuple):
 
 
 @compiled
-def remember(waiting: Waiting, step: Step) -> None:
+def remember(steps: Waiting, step: Step) -> None:
     """Let ``step`` wait for its return."""
-    here = step.t % len(waiting.action)
-    waiting.angle[here], waiting.angular_velocity[here] = step.angle, step.angular_velocity
-    waiting.action[here], waiting.reward[here] = step.action, step.reward
-    waiting.count[0] += 1
+    here = step.t % len(steps.action)
+    steps.angle[here], steps.angular_velocity[here] = step.angle, step.angular_velocity
+    steps.action[here], steps.reward[here] = step.action, step.reward
+    steps.waiting[0] += 1
 
 
 @compiled
-def is_complete(waiting: Waiting, fell: bool) -> bool:
+def is_complete(steps: Waiting, fell: bool) -> bool:
     """Whether the step that has waited longest has its return; after a fall, all that wait have it."""
-    return waiting.count[0] == len(waiting.action) or (fell and waiting.count[0] > 0)
+    return steps.waiting[0] == len(steps.action) or (fell and steps.waiting[0] > 0)
 
 
 @compiled
-def take_oldest(waiting: Waiting, discount: float, now: int) -> Visit:
+def take_oldest(steps: Waiting, discount: float, now: int) -> Visit:
     """The step that has waited longest, at step ``now``; it waits no more."""
-    room = len(waiting.action)
-    count = waiting.count[0]
+    room = len(steps.action)
+    count = steps.waiting[0]
     return_ = 0.0
     for back in range(count):
-        return_ = waiting.reward[(now - back) % room] + discount * return_
+        return_ = steps.reward[(now - back) % room] + discount * return_
     oldest = now - count + 1
     here = oldest % room
-    waiting.count[0] = count - 1
+    steps.waiting[0] = count - 1
     return Visit(
-        oldest, waiting.angle[here], waiting.angular_velocity[here], waiting.action[here], return_
+        oldest, steps.angle[here], steps.angular_velocity[here], steps.action[here], return_
     )
 
 
@@ -73,5 +73,5 @@ def nothing_waits(discount: float) -> Waiting:
     """Room for the steps that a return with this discount is taken over."""
     room = 1 if discount == 0 else ceil(log(NEGLIGIBLE) / log(discount))
     angle, angular_velocity, reward = (np.zeros(room) for _ in range(3))
-    action, count = np.zeros(room, dtype=np.int64), np.zeros(1, dtype=np.int64)
-    return Waiting(angle, angular_velocity, action, reward, count)
+    action, waiting = np.zeros(room, dtype=np.int64), np.zeros(1, dtype=np.int64)
+    return Waiting(angle, angular_velocity, action, reward, waiting)

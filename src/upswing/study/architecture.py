@@ -62,6 +62,12 @@ class Architecture(Strict):
     def check_with(self, task: Task) -> None:
         """Raise ``ValueError`` if it does not go with a task; each part checks its own."""
 
+    def epsilon_in(self, study: float) -> float:
+        """The share of random actions in a study that has ``study``; a policy explores by itself."""
+        if self.holds == "policy":
+            return 0.0
+        return study if self.epsilon is None else self.epsilon
+
     def misfits(self, task: Task) -> Iterator[str]:
         """Why it does not go with a task, by each part that says so."""
         for part in type(self).__mro__:
@@ -96,9 +102,9 @@ class Architecture(Strict):
                 f"`method: {self.method}` improves {HELD[self.improves]}; {self.learner} holds "
                 f"{HELD[self.holds]}"
             )
-        if self.holds == "policy" and self.epsilon != 0:
+        if self.holds == "policy" and self.epsilon:
             raise ValueError(
-                f"{self.learner} draws its actions by probabilities of its own; write `epsilon: 0`"
+                f"{self.learner} draws its actions by probabilities of its own; leave `epsilon` out"
             )
         for part in type(self).__mro__:
             if "check" in vars(part):

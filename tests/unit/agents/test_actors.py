@@ -38,9 +38,7 @@ def output_of(part, place):
     if part.tiled:
         told = torch.eye(160, dtype=torch.float64)[place.tiles[0]]
     else:
-        told = torch.tensor(
-            [np.sin(place.angle), np.cos(place.angle), place.angular_velocity / 20]
-        )
+        told = torch.tensor([np.sin(place.angle), np.cos(place.angle), place.angular_velocity / 20])
     return part.networks(0, told[None])[0]
 
 
@@ -177,7 +175,7 @@ def test_compiled_and_plain_python_are_the_same_to_the_last_bit(options, tmp_pat
     [
         ({"learner": "softmax"}, "`method: q-learning` improves values of actions; softmax holds"),
         ({"learner": "table", "method": "reinforce"}, "improves a policy; table holds values"),
-        ({"learner": "softmax", "method": "reinforce", "epsilon": None}, "write `epsilon: 0`"),
+        ({"learner": "softmax", "method": "reinforce", "epsilon": 0.1}, "leave `epsilon` out"),
         (
             {"learner": "softmax", "method": "reinforce", "coding": "continuous"},
             "a table takes tiles; write `hidden: [30]`",
@@ -190,4 +188,4 @@ def test_compiled_and_plain_python_are_the_same_to_the_last_bit(options, tmp_pat
 )  # fmt: skip
 def test_what_does_not_go_together_is_refused(options, said):
     with pytest.raises(ValidationError, match=said.replace("[", r"\[")):
-        architecture_of(**{"epsilon": 0.0, **options})
+        architecture_of(**options)

@@ -117,11 +117,11 @@ def test_a_run_in_pieces_and_one_in_plain_python_are_the_run_in_one(tmp_path):
 )
 def test_what_does_not_go_together_is_refused(options, said):
     with pytest.raises(ValidationError, match=said):
-        architecture_of(**{"epsilon": 0.0, **options})
+        architecture_of(**options)
 
 
 def test_without_falls_it_needs_another_reinforcement():
     task = task_named("full-control", kind="full-control", steps=10)
-    keys = {"learner": "ase-ace", "method": "ase-ace", "epsilon": 0.0}
+    keys = {"learner": "ase-ace", "method": "ase-ace"}
     assert "write `reinforcement: reward`" in "".join(architecture_of(**keys).misfits(task))
     assert not list(architecture_of(**keys, reinforcement="reward").misfits(task))

@@ -6,8 +6,8 @@ both elements follow it, as far as their traces say that they took part:
     w(t + 1) = w(t) + α r̂(t) e(t)      e(t + 1) = δ e(t) + (1 − δ) y(t) x(t)
     v(t + 1) = v(t) + β r̂(t) x̄(t)      x̄(t + 1) = λ x̄(t) + (1 − λ) x(t)
 
-Here y is −1 for a push to the left and 1 for one to the right, and x is 1 in the box of the state, else 0.
-After a failure p(t) is 0, and the traces begin again from 0.
+Here y is −1 for a push to the left and 1 for one to the right, and x is 1 in the box of the state, else
+0. After a failure p(t) is 0, and the traces begin again from 0.
 """
 
 from math import isnan, nan
@@ -38,7 +38,7 @@ class Options(architecture.Architecture):
     improves: ClassVar[architecture.Content] = "policy"
     reinforcement: Literal["failure", "reward"] = Field(
         default="failure",
-        description="What is learned from: −1 for a fall and else 0, as in 1983, or the thesis's reward.",
+        description="What is learned from: −1 for a fall and else 0, as in 1983, or −φ².",
     )
 
     def check(self) -> None:

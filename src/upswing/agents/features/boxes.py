@@ -1,8 +1,8 @@
 """The boxes of Barto, Sutton and Anderson (1983), which go back to Michie and Chambers (1968).
 
-They cut the angle at 0, ±1, ±6 and ±12°, and the angular velocity at ±50 °/s. Two things differ here. The
-cart's position and velocity, cut into 3 parts each there, are no part of the state: the track has no end.
-And beyond ±12°, where a trial ends there, lies a box on either side for each part of the velocity.
+They cut the angle at 0, ±1, ±6 and ±12°, and the angular velocity at ±50 °/s. Two things differ here.
+The cart's position and velocity, cut into 3 parts each there, are no part of the state: the track has no
+end. And beyond ±12°, where a trial ends there, lies a box on either side for each part of the velocity.
 """
 
 from math import degrees, pi

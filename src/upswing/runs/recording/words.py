@@ -73,7 +73,7 @@ def about(
 
 {colours(spec)}
 
-**{architecture.name}**: {architecture.in_words()}. {_of_actions(spec)}; the
+**{architecture.name}**: {architecture.in_words()}. {_of_choosing(spec)}; the
 discount γ is {spec.discount:g}.
 
 | | |
@@ -82,7 +82,7 @@ discount γ is {spec.discount:g}.
 """
 
 
-def _of_actions(spec: Spec) -> str:
+def _of_choosing(spec: Spec) -> str:
     """How actions are chosen."""
     if spec.architecture.holds == "policy":
         return "Actions are drawn by the probabilities that it has learned"
