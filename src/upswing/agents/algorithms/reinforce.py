@@ -1,7 +1,7 @@
 """REINFORCE with a baseline (Williams 1992; §3.3): the return moves the policy, without bootstrapping.
 
 A step learns once its return is complete: after a fall, or when what is still to come weighs nothing.
-The baseline V(s) is learned from the same returns. The factor γᵗ of the textbook is left out, as is usual.
+The baseline V(s) is learned from the same returns. The textbook's factor γᵗ is left out, as is usual.
 """
 
 from math import nan

@@ -1,9 +1,9 @@
 """A network that maps states to accelerations (§3.3): a Gaussian policy within the task's range.
 
 The actor's single output is the mean μ(s), in units of the largest acceleration. An acceleration a of
-the task has a probability in proportion to exp(−(a − μ)² / 2σ²). That is the Gaussian distribution within
-their range, on as fine a set of accelerations as the task has: a run stores which of them it took, so
-they are no continuum. The critic is that of ``softmax``, and so is an update.
+the task has a probability in proportion to exp(−(a − μ)² / 2σ²). That is the Gaussian distribution
+within their range, on as fine a set of accelerations as the task has: a run stores which of them it
+took, so they are no continuum. The critic is that of ``softmax``, and so is an update.
 """
 
 from collections.abc import Mapping, Sequence

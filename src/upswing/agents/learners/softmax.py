@@ -1,8 +1,8 @@
 """A network that maps states to actions (§3.3), and no Q: each action has a probability.
 
 The actor is networks, or a table, with a preference for each action; e to the power of it says how
-likely the action is. The critic, made likewise, has a single output: V(s). An update moves both, the critic by
-α·δ and the actor by ``rate``·α·δ along the gradient of ln π(a|s).
+likely the action is. The critic, made likewise, has a single output: V(s). An update moves both, the
+critic by α·δ and the actor by ``rate``·α·δ along the gradient of ln π(a|s).
 """
 
 from collections.abc import Mapping, Sequence
