@@ -9,11 +9,14 @@ from scipy.stats import truncnorm
 
 from tests.helpers import assert_same, beyond_spec, run
 from tests.oracles import policies
+from tests.paths import ROOT
 from upswing.agents.features import Place, locate
 from upswing.agents.learners import choose, state_value, update, values
 from upswing.agents.policy import drawn, softmax
 from upswing.runs.simulation import prepare
 from upswing.study.architecture import architecture_of
+from upswing.study.config import load
+from upswing.study.matrix import Matrix
 
 FINE = {"pendulum": {"accelerations": tuple(float(a) for a in range(-10, 11))}}
 KINDS = ["balancing", "full-control"]
@@ -189,3 +192,9 @@ def test_compiled_and_plain_python_are_the_same_to_the_last_bit(options, tmp_pat
 def test_what_does_not_go_together_is_refused(options, said):
     with pytest.raises(ValidationError, match=said.replace("[", r"\[")):
         architecture_of(**options)
+
+
+def test_the_random_actions_of_a_study_are_none_of_a_policy():
+    cells = Matrix(load(ROOT / "config/beyond.yaml")).cells.values()
+    shares = {(spec.architecture.holds, spec.epsilon) for spec in cells}
+    assert shares == {("values", 0.01), ("policy", 0.0)}
