@@ -55,9 +55,7 @@ rule readings:
     input:
         FILES.tiles,
         lambda wildcards: (
-            FILES.judged_from(targets())
-            if workflow.is_main_process
-            else FILES.swept
+            FILES.judged_from(targets()) if workflow.is_main_process else FILES.swept
         ),
     output:
         FILES.readings,

@@ -77,6 +77,8 @@ def figure(
     from upswing.figures import FIGURES, draw, named
     from upswing.runs.results import OwnRuns
 
+    if name.isdigit():  # of the thesis, whatever the study has
+        name = named(name)
     found = OwnRuns(results_folder(results, positional), asked_study(study))
     own = [one for one in found.study.figure_names if one not in list(FIGURES)]
     name = named(name, [*FIGURES, *own])
