@@ -104,16 +104,19 @@ NO_MATTER = {
     "finalists": {f"{STUDY}project_files"},
     # By which the command line says, beside the table, of which code it is.
     "sweep": {f"{STUDY}{name}" for name in ("project_files", "jobs", "code", "own_code")},
-    # Options of learners that no cell has: other configurations are read, to say which of them this study is.
-    "report": {f"{STUDY}deep_q", f"{STUDY}actor"},
 }
 """What jobs import that changes nothing in what they write."""
+
+OPTIONS = {f"{STUDY}deep_q", f"{STUDY}actor"}
+"""What options of several learners are made of: a study that is read has them in full, whoever reads it. Only
+those who train compute with them."""
 
 
 def missing(job, modules, code):
     """What a job imports and its code lacks; but no file that a job writes depends on the command line."""
     own = {name for name in modules if name != "upswing" and not name.startswith("upswing.cli")}
-    return own - code.modules - NO_MATTER.get(job.partition(" ")[0], set())
+    rule = job.partition(" ")[0]
+    return own - code.modules - NO_MATTER.get(rule, set()) - (set() if rule == "train" else OPTIONS)
 
 
 def test_every_kind_of_job_was_run(ran):

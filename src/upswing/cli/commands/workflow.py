@@ -150,7 +150,7 @@ def bound(positional: Positional = None, results: Named = None, study: AskedStud
 @panel.subcommand("settling", cls=Job)
 def settling(positional: Positional = None, results: Named = None, study: AskedStudy = "") -> None:
     """Watch value and policy iteration settle, sweep by sweep (tables/settling.parquet)."""
-    from upswing.optimal.bound import body_of_study
+    from upswing.optimal.body import body_of_study
     from upswing.optimal.settling import write_settling
 
     folder = results_folder(results, positional)
