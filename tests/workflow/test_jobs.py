@@ -102,6 +102,9 @@ STUDY = "upswing.study."
 NO_MATTER = {
     # Which file the command line takes for one that is not there: its content is told.
     "finalists": {f"{STUDY}project_files"},
+    # The command line reads the study; of it these are told the pendulum, which stands in the params.
+    "bound": {"upswing.runs.study_file"},
+    "settling": {"upswing.runs.study_file"},
     # By which the command line says, beside the table, of which code it is.
     "sweep": {f"{STUDY}{name}" for name in ("project_files", "jobs", "code", "own_code")},
 }

@@ -159,6 +159,8 @@ def test_a_deleted_sweep_is_made_again_and_what_follows(study):
     assert study.jobs("--dry-run", *TARGETS) == {
         "sweep": 1, "readings": 1, "verdicts": 1, "history": 1, "report": 1,
     }  # fmt: skip
+    assert study.jobs(*TARGETS)["sweep"] == 1
+    assert len(study.sweeps) > 1
 
 
 def test_a_plain_run_leaves_sweeps_of_older_code_as_they_are_and_the_page_says_so(study):
