@@ -7,8 +7,13 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 CORES ?= all
-# A target is about the study in CONFIG, and its results in RESULTS, or where CONFIG says.
+# A target is about the study in CONFIG, and its results in RESULTS, or where CONFIG says (results, where none is given).
 CONFIG ?= config/config.yaml
+# The project's other studies go below RESULTS, and not into it, where the main one is.
+MAIN := $(RESULTS)
+smoke: override RESULTS := $(if $(MAIN),$(MAIN)/smoke)
+beyond: override RESULTS := $(if $(MAIN),$(MAIN)/beyond)
+exploratory: override RESULTS := $(if $(MAIN),$(MAIN)/exploratory)
 # A bar for every rule in a terminal; elsewhere Snakemake's own lines, of which the rules leave out most.
 LOGGER := $(shell test -t 2 && echo --logger rich)
 SNAKEMAKE = PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/snakemake --cores $(CORES) --profile workflow/profiles/default $(LOGGER)
@@ -98,7 +103,8 @@ readings: install ## Judge every claim under other readings too (40 minutes on 2
 .PHONY: beyond
 beyond: install ## Run what goes beyond the thesis (forty minutes on 2 cores), into results/beyond
 	@$(call run,config/beyond.yaml)
-	@page=$$($(BIN)/upswing check "$(CONFIG)" --folder)/report/index.html && if test -e "$$page"; then $(SNAKEMAKE) --configfile "$(CONFIG)"; fi
+	@main=$(if $(MAIN),"$(MAIN)",$$($(BIN)/upswing check "$(CONFIG)" --folder)) && if test -e "$$main/report/index.html"; then \
+		$(SNAKEMAKE) --configfile "$(CONFIG)"$(if $(MAIN), --config results="$(MAIN)"); fi
 
 .PHONY: bench
 bench: install ## Measure a step against C, numpy and torch, and what the whole study took
@@ -173,7 +179,8 @@ screenshots: install ## Renew the documentation's pictures of the recordings (ne
 	@$(folder) && $(BIN)/upswing screenshots "$$results" --into docs/pictures
 
 .PHONY: exploratory
-exploratory: install ## The claims on the seeds 0 to 29, which were seen before, into results/exploratory; shown beside the others
+exploratory: install ## The thesis's claims on the seeds 0 to 29, which were seen before, into results/exploratory; shown beside the others
+	@test "$(origin CONFIG)" = file || { echo "make exploratory is about the thesis's study: leave CONFIG out" >&2; exit 1; }
 	@mkdir -p build
 	@sed 's/{first: 10000, count: [0-9]*}/{first: 0, count: 30}/; s#^results: results#results: results/exploratory#' "$(CONFIG)" > build/exploratory.yaml
 	@$(call run,build/exploratory.yaml) && $(BIN)/upswing exploratory "$$results"

@@ -12,7 +12,7 @@ from safetensors.numpy import load_file
 from tests.paths import ROOT
 from tests.workflow.small_study import Edited
 from upswing.figures.phases import held
-from upswing.optimal.bound import natural_speed
+from upswing.optimal.body import natural_speed
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum, body_of
 from upswing.study.physical import PendulumOptions

@@ -15,7 +15,6 @@ OF_A_STUDY = {
     "unlock",
     "study",
     "readings",
-    "exploratory",
     "snakemake-report",
 }
 """What runs Snakemake on the study in CONFIG."""
@@ -26,7 +25,7 @@ OF_RESULTS = {
 }  # fmt: skip
 """What looks at a folder of results."""
 
-OF_OTHER_STUDIES = {"smoke", "beyond"}
+OF_OTHER_STUDIES = {"smoke", "beyond", "exploratory"}
 OF_THE_CODE = {
     "help", "install", "test", "test-heavy", "test-all", "audit", "lint", "types", "format", "schema",
     "docs", "lock", "portability",
@@ -67,8 +66,20 @@ def test_what_looks_at_results_takes_their_folder_or_their_study(target):
 
 
 @pytest.mark.parametrize("target", sorted(OF_OTHER_STUDIES))
-def test_the_other_studies_of_the_project_take_another_folder(target):
-    assert '--config results="a folder"' in said(target, "RESULTS=a folder")
+def test_the_other_studies_of_the_project_go_below_another_folder_and_not_into_it(target):
+    first, *more = re.findall(r"--config results=(\S+ \S+)", said(target, "RESULTS=a folder"))
+    assert first == f'"a folder/{target}"'
+    # The page that shows the chapter is that of the main study.
+    assert more == (['"a folder";'] if target == "beyond" else [])
+
+
+def test_the_verdicts_on_seeds_that_were_seen_are_of_the_thesis(tmp_path):
+    done = subprocess.run(
+        ["make", "--assume-old=.venv/.installed", "exploratory", "CONFIG=config/poles.yaml"],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode != 0
+    assert "leave CONFIG out" in done.stderr
 
 
 def test_orphans_are_deleted_where_that_is_said():

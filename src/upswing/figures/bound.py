@@ -27,7 +27,7 @@ def draw(results: "Results") -> "Drawing":
 
     from upswing.figures import panels
     from upswing.figures.style import WIDTH, subplots
-    from upswing.optimal.bound import natural_speed
+    from upswing.optimal.body import natural_speed
     from upswing.physics.actions import signed
     from upswing.physics.pendulum import Pendulum, body_of
     from upswing.runs.files.typed_table import read_table

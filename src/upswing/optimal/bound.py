@@ -1,6 +1,5 @@
 """The bound → ``tables/bound.parquet``, and maps of its finest grid, ``tables/bound_maps.parquet``."""
 
-from math import hypot, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from upswing.optimal.body import body_of_study
+from upswing.optimal.body import body_of_study, reaching
 from upswing.optimal.policies import act
 from upswing.optimal.rows import Row, exact, explored_optimal, of_grid, thresholds
 from upswing.optimal.solved import Solved, solve
@@ -49,14 +48,7 @@ def write_bound(results: Path, study: Study | None = None) -> None:
 
 def grids_for(body: Pendulum) -> list[Grid]:
     """The grids, reaching as far for this pendulum as they do for the thesis's."""
-    reach = natural_speed(body) / natural_speed(Pendulum())
-    return [grid._replace(limit=reach * grid.limit) for grid in GRIDS]
-
-
-def natural_speed(body: Pendulum) -> float:
-    """What velocities go with: √(√(g² + a²)/l) for the strongest push a [rad/s]."""
-    push = max(map(abs, body.accelerations))
-    return sqrt(hypot(body.gravity, push) / body.length)
+    return [reaching(grid, body) for grid in GRIDS]
 
 
 def maps(solved: Solved) -> pd.DataFrame:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from upswing.optimal.body import reaching
 from upswing.optimal.policy_iteration import Actions, Moment, improved, policy_iteration
 from upswing.optimal.state_grid import Array, Grid, Successors, successors
 from upswing.optimal.value_iteration import optimal_values
@@ -15,7 +16,7 @@ from upswing.runs.files.tables import write_table
 from upswing.study.paths import SETTLING
 
 GRID = Grid(180, 201)
-"""The coarsest grid of the bound: what is shown here is the same on finer ones."""
+"""As coarse as the coarsest grid of the bound, and reaching as far."""
 
 DISCOUNTS = (0.7, 0.97)
 """The thesis's γ (§4.5.1), and one whose best policy swings up."""
@@ -29,7 +30,8 @@ POLICY_ITERATION = "policy iteration"
 METHODS = (VALUE_ITERATION, GENERALIZED, POLICY_ITERATION)
 
 SPARSER = 1.05
-"""A row is kept once this many times the backups of the one before were made: even on a log scale."""
+"""A row is kept once this many times the backups of the one before were made (even on a log scale), and
+the last one, which says how many were needed."""
 
 
 class Row(NamedTuple):
@@ -52,10 +54,10 @@ class Watched:
         self.rows: list[Row] = []
 
     def see(self, method: str, moment: Moment) -> None:
-        """Keep what is to be seen of a moment, unless the one before is very near."""
+        """Keep what is to be seen of a moment; of very near ones in a row the last alone."""
         own = [row for row in self.rows if row.method == method]
-        if own and moment.backups < SPARSER * own[-1].backups:
-            return
+        if len(own) > 1 and own[-1].backups < SPARSER * own[-2].backups:
+            self.rows.remove(own[-1])
         error = float(np.abs(moment.values - self.best).max())
         worse = self._worse(moment.policy)
         self.rows.append(
@@ -96,6 +98,8 @@ def settle(body: Pendulum, grid: Grid, discount: float) -> list[Row]:
 
 def write_settling(results: Path, body: Pendulum | None = None) -> None:
     """Watch every method with every γ, and write the table."""
-    rows = [row for discount in DISCOUNTS for row in settle(body or Pendulum(), GRID, discount)]
+    body = body or Pendulum()
+    grid = reaching(GRID, body)
+    rows = [row for discount in DISCOUNTS for row in settle(body, grid, discount)]
     write_table(results / SETTLING, pd.DataFrame(rows))
     seal(results, "settling", [results / SETTLING])

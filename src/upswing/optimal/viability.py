@@ -6,7 +6,7 @@ from math import atan
 import numpy as np
 
 from upswing.optimal.state_grid import Array, Grid, Successors, between, interpolate, points
-from upswing.physics.braking import highest_speed_short_of
+from upswing.physics.braking import highest_speed_short_of, mirrored
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.physics.tasks import HORIZONTAL
@@ -74,7 +74,7 @@ def balanced_angle(body: Pendulum) -> float:
 
     A saddle, at tan φ = ẍ/g (eq. 14, 16): beyond it gravity wins, whatever the cart does.
     """
-    return atan(body.accelerations[-1] / body.gravity)
+    return atan(-body.accelerations[0] / body.gravity)
 
 
 @cache
@@ -82,7 +82,8 @@ def catchable_speed(body: Pendulum) -> float:
     """The same by shooting, without a grid and to 10⁻⁹ rad/s.
 
     Full braking from it leads to the balanced angle and never arrives: the stable way to the saddle.
-    Whoever passes that angle is lost, so ``catching.highest_stoppable_speed``, which asks whether it
-    comes to rest before +90°, is the same number.
+    Whoever passes that angle is lost, so ``braking.highest_stoppable_speed``, which asks whether it
+    comes to rest before the other horizontal, is the same number.
     """
-    return highest_speed_short_of(body, balanced_angle(body))
+    sides = (body, mirrored(body))
+    return min(highest_speed_short_of(one, balanced_angle(one)) for one in sides)

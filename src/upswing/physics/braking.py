@@ -5,6 +5,7 @@ come to rest before it passes the horizontal on the other side? Nothing else can
 """
 
 from functools import cache
+from typing import NamedTuple
 
 from upswing.physics import pendulum
 from upswing.physics.jit import compiled
@@ -39,7 +40,26 @@ def highest_speed_short_of(body: Pendulum, limit: float) -> float:
     return low
 
 
+class Stoppable(NamedTuple):
+    """The speeds at the horizontal above which nothing stops the pendulum, by the side it comes from."""
+
+    rising: float  # |φ̇| of an arrival with φ̇ > 0, from −90° [rad/s]
+    falling: float  # |φ̇| of an arrival with φ̇ < 0, from +90° [rad/s]
+
+
 @cache
+def stoppable_speeds(body: Pendulum) -> Stoppable:
+    """Up to which speed the push against it stops the pendulum, from either side [rad/s]."""
+    one, other = (highest_speed_short_of(each, HORIZONTAL) for each in (body, mirrored(body)))
+    return Stoppable(one, other)
+
+
 def highest_stoppable_speed(body: Pendulum) -> float:
-    """The speed at the horizontal [rad/s] above which nothing stops the pendulum."""
-    return highest_speed_short_of(body, HORIZONTAL)
+    """The speed at the horizontal [rad/s] up to which it can be stopped, whatever side it comes from."""
+    return min(stoppable_speeds(body))
+
+
+def mirrored(body: Pendulum) -> Pendulum:
+    """The same pendulum seen from behind: left is right."""
+    pushes = tuple(-push for push in reversed(body.accelerations))
+    return body if pushes == tuple(body.accelerations) else body._replace(accelerations=pushes)

@@ -171,7 +171,7 @@ def page_of(
         "citation": citation(templates.parent / CITATION),
         "lent": lent,
         "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
-        "registered": registered(results, study),
+        "registered": None if study.claims else registered(results, study),
         "exploratory": {} if study.claims else exploratory(templates),
         "over": over_readings(results, templates, verdicts, study),
         **moves,

@@ -19,7 +19,7 @@ from upswing.analysis.robustness.tables import (
 from upswing.report.inline_svg import inline
 from upswing.runs.files.typed_table import read_table
 from upswing.study import paths
-from upswing.study.claims import load_claims
+from upswing.study.claims import file_of_claims, load_claims
 from upswing.study.config import Study
 from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
 from upswing.study.sweeps import load_sweeps
@@ -55,7 +55,7 @@ def over_readings(results: Path, templates: Path, verdicts: list[Row], study: St
 
 def _outdated(results: Path, project: Path, study: Study) -> Outdated | None:
     """What has changed since the sweeps; None where nothing has, or nobody says what is asked now."""
-    asked_for = project / SWEEPS, project / CLAIMS
+    asked_for = project / SWEEPS, file_of_claims(study, otherwise=project / CLAIMS)
     if not all(path.is_file() for path in asked_for):
         return None
     sweeps, claims = load_sweeps(asked_for[0], study), load_claims(asked_for[1], study)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from upswing.physics.braking import Stoppable
 from upswing.physics.environment import NEVER, Trajectory
 from upswing.physics.jit import compiled
 from upswing.physics.tasks import HORIZONTAL
@@ -38,14 +39,14 @@ bit and the same on every processor."""
 
 
 def measure(
-    trajectory: Trajectory, by_falls: bool, too_fast: float, time_step: float = THESIS_TIME_STEP
+    trajectory: Trajectory, by_falls: bool, too_fast: Stoppable, time_step: float = THESIS_TIME_STEP
 ) -> Measures:
     """What a run came to.
 
     Args:
         trajectory: the run.
         by_falls: whether a stretch without a fall is stable, or one that is mostly upright.
-        too_fast: the speed at the horizontal above which nothing stops the pendulum [rad/s].
+        too_fast: the speeds at the horizontal above which nothing stops the pendulum [rad/s].
         time_step: of the run [s]; where a length is said in steps of 5 ms, the same time is meant.
     """
 
@@ -90,7 +91,7 @@ def last_fifth(steps: int) -> int:
     return steps - max(steps // 5, 1)
 
 
-def in_windows(trajectory: Trajectory, too_fast: float) -> Windows:
+def in_windows(trajectory: Trajectory, too_fast: Stoppable) -> Windows:
     """The run in at most ``WINDOWS`` windows; ``too_fast`` as for ``measure``."""
     steps = len(trajectory.angle)
     length = -(-steps // WINDOWS)
@@ -140,7 +141,7 @@ def _sums(trajectory: Trajectory, first: int, last: int) -> tuple[int, int, int,
 
 @compiled
 def _arrivals(
-    trajectory: Trajectory, first: int, last: int, too_fast: float
+    trajectory: Trajectory, first: int, last: int, too_fast: Stoppable
 ) -> tuple[int, float, int]:
     """Arrivals above the horizontal from below, their speeds in sum, and how many are too fast.
 
@@ -153,10 +154,11 @@ def _arrivals(
         if above <= HORIZONTAL < below and not trajectory.reset[t]:
             before, after = trajectory.angular_velocity[t], trajectory.angular_velocity[t + 1]
             share = (below - HORIZONTAL) / (below - above)
-            speed = abs(before + share * (after - before))
+            arriving = before + share * (after - before)
+            speed = abs(arriving)
             arrivals += 1
             speeds += speed
-            unstoppable += speed > too_fast
+            unstoppable += speed > (too_fast.rising if arriving > 0 else too_fast.falling)
     return arrivals, speeds, unstoppable
 
 
@@ -203,7 +205,7 @@ def _fill(trajectory: Trajectory, windows: Windows) -> None:
 
 
 @compiled
-def _count(trajectory: Trajectory, windows: Windows, too_fast: float) -> None:
+def _count(trajectory: Trajectory, windows: Windows, too_fast: Stoppable) -> None:
     """Arrivals and excursions by window: each counts in the window in which it begins."""
     began = 0
     is_below, is_open = False, False

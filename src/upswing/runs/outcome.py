@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from upswing.physics.braking import highest_stoppable_speed
+from upswing.physics.braking import stoppable_speeds
 from upswing.physics.environment import Trajectory
 from upswing.runs.evaluation import evaluate
 from upswing.runs.files.trajectory import digest, kept_steps
@@ -26,7 +26,7 @@ class Outcome(NamedTuple):
 
 def outcome_of(spec: Spec, seed: int, setting: Setting, trajectory: Trajectory) -> Outcome:
     """Measure a run of ``spec`` that ``setting`` has learned and ``trajectory`` holds."""
-    too_fast = highest_stoppable_speed(setting.body)
+    too_fast = stoppable_speeds(setting.body)
     measures = measure(trajectory, spec.task.judged_by == "falls", too_fast, setting.body.time_step)
     if measures.diverged_at is None and not _is_finite(setting):
         # An overflow that no later step met.

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple, TypeVar
 from upswing.study.claims import OF_THE_THESIS, Claim, file_of_claims, load_claims
 from upswing.study.config import Study, from_snakemake, load, validated
 from upswing.study.errors import BadInput
+from upswing.study.own_files import placed
 from upswing.study.project_files import Files, along
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import Sweep, load_sweeps
@@ -74,10 +75,15 @@ def asked_of_module(config: Mapping[str, Any], files: Files) -> Asked:
         BadInput: every problem of any of the files.
     """
     source = "config of the module" if config else str(files.config)
+
+    def read() -> Study:
+        problems: list[str] = []
+        content = placed(source, dict(config), Path(), problems)
+        return validated({source: content}, problems=problems)
+
     return _asked(
-        lambda: validated({source: config}) if config else load(files.config),
-        source, files.claims, files.sweeps,
-    )  # fmt: skip
+        read if config else lambda: load(files.config), source, files.claims, files.sweeps
+    )
 
 
 def _asked(read: Callable[[], Study], source: str, claims: Path, sweeps: Path) -> Asked:

@@ -53,7 +53,7 @@ def bound() -> Code:
     return learning("upswing.optimal.bound", used=product([table], KINDS))
 
 
-SETTLING = Code(("upswing.optimal.settling", "upswing.optimal.body"), COMPUTING_PACKAGES)
+SETTLING = Code(("upswing.optimal.settling",), COMPUTING_PACKAGES)
 
 
 def tiles() -> Code:

@@ -43,7 +43,7 @@ def along(path: Path, project: Path = PROJECT) -> Path:
 
 def is_own(path: Path) -> bool:
     """Whether a file is one of the installed package, which belongs to no study."""
-    return path.resolve().is_relative_to(PROJECT)
+    return path.resolve().is_relative_to(PROJECT.resolve())
 
 
 def files_of_workflow(project: Path) -> Files:
@@ -68,6 +68,8 @@ def files_of_module(project: Path, config: Mapping[str, Any]) -> tuple[Files, di
         given = study.pop(name)
         if isinstance(given, str | Path) and Path(given).exists():
             found = found._replace(**{name: Path(given)})
+            if name == "claims":
+                study[name] = str(given)  # the study's own, which its results must know
         else:
             what = "a folder" if name == "templates" else "a file"
             problems.append(f"config of the module: {name}: {shown(given)}: must be {what}")

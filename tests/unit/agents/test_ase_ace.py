@@ -125,3 +125,7 @@ def test_without_falls_it_needs_another_reinforcement():
     keys = {"learner": "ase-ace", "method": "ase-ace"}
     assert "write `reinforcement: reward`" in "".join(architecture_of(**keys).misfits(task))
     assert not list(architecture_of(**keys, reinforcement="reward").misfits(task))
+    endless, ended = ({"at_end": "falls"}, {"at_end": "falls", "limit": 2.0})
+    for track, fits in ((endless, False), (ended, True)):
+        other = task_named("full-control", kind="full-control", steps=10, track=track)
+        assert (not list(architecture_of(**keys).misfits(other))) == fits

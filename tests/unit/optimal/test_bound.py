@@ -182,7 +182,8 @@ def test_kept_states_are_kept_by_simulation_and_lost_ones_are_lost():
 
 def test_what_is_caught_at_the_horizontal_is_what_comes_to_rest():
     """Beyond the balanced angle gravity wins, so nothing comes to rest between it and +90°."""
-    for body in (BODY, Pendulum(friction=0.0), Pendulum(gravity=5.0, time_step=1e-3)):
+    uneven = [Pendulum(accelerations=pushes) for pushes in ((-20.0, 0.0, 10.0), (-10.0, 20.0))]
+    for body in (BODY, Pendulum(friction=0.0), Pendulum(gravity=5.0, time_step=1e-3), *uneven):
         assert catchable_speed(body) == pytest.approx(highest_stoppable_speed(body), abs=1e-6)
 
 

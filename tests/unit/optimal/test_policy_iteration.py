@@ -6,7 +6,7 @@ from scipy.sparse import coo_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from upswing.optimal.policy_iteration import Moment, evaluated, improved, policy_iteration
-from upswing.optimal.settling import METHODS, VALUE_ITERATION, settle
+from upswing.optimal.settling import METHODS, POLICY_ITERATION, VALUE_ITERATION, settle
 from upswing.optimal.state_grid import Grid, Successors, interpolate, points, step, successors
 from upswing.optimal.value_iteration import TOLERANCE, optimal_values
 from upswing.physics.pendulum import Pendulum
@@ -104,8 +104,14 @@ def test_the_rows_say_how_value_and_policy_settle():
         assert own[0].worse > 0.1
         assert own[-1].error < 0.01
         assert own[-1].worse < 0.01
+    ways, seen = successors(BODY, TINY), []
+    optimal_values(TINY, ways, 0.8, swept=seen.append)
+    ends = {row.method: row.backups for row in rows}
+    assert ends[VALUE_ITERATION] == 3 * len(seen)
+    moments: list[Moment] = []
+    policy_iteration(TINY, ways, 0.8, None, moments.append)
+    assert ends[POLICY_ITERATION] == moments[-1].backups
     # After one sweep from V = 0, V is the best reward of a step.
     first = next(row for row in rows if row.method == VALUE_ITERATION)
-    ways = successors(BODY, TINY)
     one = -(ways.angle**2).min(axis=1)
     assert first.error == pytest.approx(np.abs(one - optimal_values(TINY, ways, 0.8)).max())

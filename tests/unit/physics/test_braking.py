@@ -6,7 +6,13 @@ from scipy.integrate import solve_ivp
 
 from tests.helpers import make_spec, run
 from upswing.physics import pendulum
-from upswing.physics.braking import highest_stoppable_speed, passes
+from upswing.physics.braking import (
+    Stoppable,
+    highest_stoppable_speed,
+    mirrored,
+    passes,
+    stoppable_speeds,
+)
 from upswing.physics.environment import empty_trajectory
 from upswing.physics.pendulum import FROM_HANGING, Pendulum
 from upswing.physics.tasks import HORIZONTAL
@@ -68,7 +74,7 @@ def test_arrivals_are_counted_with_their_speed_at_the_horizontal():
     trajectory = empty_trajectory(6)
     trajectory.angle[:] = np.radians([100, 80, 95, 85, 170, -30])
     trajectory.angular_velocity[:] = [-20, -10, 1, -4, 0, 0]
-    found = measures.measure(trajectory, False, too_fast=12.0)
+    found = measures.measure(trajectory, False, Stoppable(12.0, 12.0))
     # half way from 100° to 80°: 15 rad/s; half way from 95° to 85°: 1.5; from 170° at rest: 0
     assert found.swing_ups == 3
     assert found.arrival_speed == pytest.approx((15 + 1.5 + 0) / 3, rel=1e-5)
@@ -79,7 +85,7 @@ def test_only_what_comes_up_to_20_degrees_has_recovered():
     degrees = [0, 100, 170, 80, 120, 60, 10, 5, 100, 10, -5, 95]
     trajectory = empty_trajectory(len(degrees) * 5)
     trajectory.angle[:] = np.radians([0] * (len(degrees) * 4) + degrees)
-    found = measures.measure(trajectory, False, 12.0)
+    found = measures.measure(trajectory, False, Stoppable(12.0, 12.0))
     # Below four times: after the first it passes the horizontal only, after the second and the third
     # it comes up, and the fourth is where the run ends.
     assert found.recovered_share == pytest.approx(2 / 4)
@@ -87,7 +93,29 @@ def test_only_what_comes_up_to_20_degrees_has_recovered():
 
 def test_a_run_without_arrivals_has_no_speed():
     trajectory, _ = run(make_spec("balancing", "table", steps=2_000))
-    found = measures.measure(trajectory, True, 15.0)
+    found = measures.measure(trajectory, True, Stoppable(15.0, 15.0))
     assert found.swing_ups == 0
     assert found.arrival_speed is None
     assert found.too_fast_share is None
+
+
+def test_a_side_is_stopped_by_the_push_against_it():
+    strong_left = Pendulum(accelerations=(-20.0, 0.0, 10.0))
+    found = stoppable_speeds(strong_left)
+    even = {
+        push: highest_stoppable_speed(Pendulum(accelerations=(-push, 0.0, push)))
+        for push in (10.0, 20.0)
+    }
+    assert found == pytest.approx((even[20.0], even[10.0]))
+    assert highest_stoppable_speed(strong_left) == pytest.approx(even[10.0])
+    assert stoppable_speeds(mirrored(strong_left)) == found[::-1]
+    assert mirrored(Pendulum()) == Pendulum()
+
+
+def test_an_arrival_is_too_fast_for_the_side_that_it_comes_from():
+    angles = np.radians([-100.0, -80.0, -100.0, 100.0, 80.0]).astype(np.float32)
+    speeds = np.array([15.0, 15.0, 0.0, -15.0, -15.0], np.float32)
+    trajectory = empty_trajectory(5)._replace(angle=angles, angular_velocity=speeds)
+    for limits, unstoppable in (((20, 10), 1), ((10, 20), 1), ((10, 10), 2), ((20, 20), 0)):
+        found = measures.measure(trajectory, False, Stoppable(*map(float, limits)))
+        assert (found.swing_ups, round(found.swing_ups * found.too_fast_share)) == (2, unstoppable)

@@ -7,6 +7,7 @@ import pytest
 from tests.helpers import make_spec, run
 from upswing.analysis.aggregate import summarise
 from upswing.analysis.verdicts import judge
+from upswing.physics.braking import Stoppable
 from upswing.physics.environment import NEVER, empty_trajectory
 from upswing.runs.metrics import measure
 from upswing.runs.outcome import outcome_of
@@ -41,7 +42,7 @@ def test_the_step_is_the_first_whose_values_are_not_finite(diverged):
     at = int(trajectory.diverged_at[0])
     assert 0 < at < STEPS
     assert not all(np.isfinite(values).all() for values in learned.values())
-    assert measure(trajectory, False, 20.0).diverged_at == at
+    assert measure(trajectory, False, Stoppable(20.0, 20.0)).diverged_at == at
     # Before it every step learned; from it on none did.
     assert not np.isnan(trajectory.td_error[: at - 1]).any()
     assert np.isnan(trajectory.td_error[at:]).all()

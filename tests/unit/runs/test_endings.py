@@ -33,7 +33,7 @@ def plainly(trajectory, first):
         "upright_last_{}": (tilt[last] <= UPRIGHT).mean(),
         "mean_reward_last_{}": trajectory.reward[last].mean(dtype=float),
         "swing_ups_last_{}": arrives[last].sum(),
-        "too_fast_last_{}": (arrives & (at_horizontal > TOO_FAST))[last].sum(),
+        "too_fast_last_{}": (arrives & (at_horizontal > TOO_FAST.rising))[last].sum(),
         "recovered_last_{}": rose[own].mean() if own.any() else None,
     }
 

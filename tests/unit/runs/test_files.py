@@ -9,6 +9,7 @@ import rerun as rr
 from safetensors.numpy import load_file
 
 from tests.helpers import make_spec, run
+from upswing.physics.braking import Stoppable
 from upswing.runs.files.atomic import written
 from upswing.runs.files.trajectory import WHOLE_AT_START, kept_steps, read_metadata
 from upswing.runs.metrics import measure
@@ -51,7 +52,7 @@ def test_the_stored_trajectory_is_the_trajectory(stored):
 
 def test_what_is_looked_at_closely_is_kept_whole():
     trajectory, _ = run(make_spec("balancing", "table", 0.5, steps=50_000))
-    stable = measure(trajectory, True, 15.0).first_stable_step
+    stable = measure(trajectory, True, Stoppable(15.0, 15.0)).first_stable_step
     kept = set(kept_steps(trajectory, stable).tolist())
     assert set(range(WHOLE_AT_START)) <= kept
     assert set(range(49_000, 50_000)) <= kept

@@ -6,10 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.helpers import make_spec, run
+from upswing.physics.braking import Stoppable
 from upswing.physics.environment import empty_trajectory
 from upswing.runs import metrics as measures
 
-TOO_FAST = 15.0
+TOO_FAST = Stoppable(15.0, 15.0)
 
 
 def made_of(angles, resets=(), reward=-1.0):

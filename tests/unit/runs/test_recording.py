@@ -8,6 +8,7 @@ import pytest
 
 from tests.helpers import columns_of_recording, make_spec, run
 from upswing.agents.features import locate
+from upswing.physics.braking import Stoppable
 from upswing.physics.environment import empty_trajectory
 from upswing.recordings.program import RERUN
 from upswing.runs.metrics import in_windows, measure
@@ -25,8 +26,8 @@ from upswing.runs.train import train
 @pytest.mark.parametrize("kind", ["balancing", "full-control"])
 def test_stretches_are_whole_and_end_in_a_gap(kind):
     trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
-    stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
-    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable, 0.005)
+    stable = measure(trajectory, kind == "balancing", Stoppable(15.0, 15.0)).first_stable_step
+    frames = stretches(trajectory, in_windows(trajectory, Stoppable(20.0, 20.0)), stable, 0.005)
     assert (np.diff(frames.steps) > 0).all()
     whole = frames.steps[~frames.gap]
     assert set(range(STRETCH)) | set(range(30_000 - STRETCH, 30_000)) <= set(whole.tolist())
@@ -39,8 +40,8 @@ def test_stretches_are_whole_and_end_in_a_gap(kind):
 @pytest.mark.parametrize("kind", ["balancing", "full-control"])
 def test_stretches_are_named_and_none_overlaps_another(kind):
     trajectory, _ = run(make_spec(kind, "table", 0.5, 30_000))
-    stable = measure(trajectory, kind == "balancing", 15.0).first_stable_step
-    frames = stretches(trajectory, in_windows(trajectory, 20.0), stable, 0.005)
+    stable = measure(trajectory, kind == "balancing", Stoppable(15.0, 15.0)).first_stable_step
+    frames = stretches(trajectory, in_windows(trajectory, Stoppable(20.0, 20.0)), stable, 0.005)
     covered = [step for one in frames.named for step in range(one.first, one.after)]
     assert covered == frames.steps[~frames.gap].tolist()
     names = " and ".join(one.name for one in frames.named)

@@ -48,7 +48,8 @@ class Options(architecture.Architecture):
 
     def check_with(self, task: Task) -> None:
         """There must be something to learn from."""
-        falls = task.judged_by == "falls" or task.track.at_end == "falls"
+        ends = task.track.limit is not None and task.track.at_end == "falls"
+        falls = task.judged_by == "falls" or ends
         if self.reinforcement == "failure" and not falls:
             raise ValueError("nothing falls in this task; write `reinforcement: reward`")
 

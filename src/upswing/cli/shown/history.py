@@ -123,7 +123,7 @@ def print_entry(entry: "Listed", side: "Side", results: Path) -> None:
         for row in side.verdicts.to_dict("records")
     ]
     print_table(
-        ("claim", "verdict", "estimate [95 %]", "runs", "the thesis says"),
+        ("claim", "verdict", "estimate [95 %]", "runs", "what is claimed"),
         [(row["claim"], row["verdict"], _interval(row), str(row.get("n", ""))) for row in rows],
         right=("runs",),
         words=[str(row.get("statement", "")) for row in rows],

@@ -16,7 +16,7 @@ COLOURS = {
     "not reproduced": "red",
     "not in this study": "bright_black",
 }
-HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "the thesis says")
+HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "what is claimed")
 
 
 def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool = True) -> None:
