@@ -92,7 +92,7 @@ study: install ## Run another study: make study CONFIG=config/mine.yaml NOTE="wh
 	@$(call run,$(CONFIG))
 
 .PHONY: smoke
-smoke: install ## The same in a minute: 2 seeds, short runs, into results/smoke
+smoke: install ## The same in one to two minutes: 2 seeds, short runs, into results/smoke
 	@$(call run,config/smoke.yaml)
 
 .PHONY: readings

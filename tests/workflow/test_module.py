@@ -104,11 +104,22 @@ def test_all_of_a_study_is_planned_from_another_folder(other):
     ("study", "more", "words"),
     [
         ({**TINY, "seed": 3}, "", "config of the module: seed: unknown key"),
+        (
+            {**TINY, "figures": [{"name": "mine", "file": "mine.py"}]},
+            "",
+            "unknown key: write the name alone",
+        ),
         ({**TINY, "claims": "config/none.yaml"}, "", "must be a file"),
         ({**TINY, "claims": "config/claims.yaml"}, "", "config/claims.yaml: insured"),
         (TINY, 'prefix: "elsewhere"', "say `results: FOLDER` in the module's config"),
     ],
-    ids=["an unknown key", "claims that are not there", "claims of another kind", "a prefix"],
+    ids=[
+        "an unknown key",
+        "a file of code",
+        "claims that are not there",
+        "claims of another kind",
+        "a prefix",
+    ],
 )
 def test_what_is_wrong_is_said_before_anything_runs(other, study, more, words):
     other.write(study, more)

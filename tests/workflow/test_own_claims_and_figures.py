@@ -57,6 +57,9 @@ def test_the_page_shows_an_own_figure_and_what_it_decides(claimed):
     section = section[: section.index("</section>")]
     assert "With α = 0.1 the table balances by the end." in section
     assert "<svg" in section
+    for words in ("If you are the author", "the thesis says", "that were registered"):
+        assert words not in page
+    assert "what is claimed" in page
     assert '<a href="#two-step-sizes">Falls with two step sizes</a>' in page
     assert "config/mine-claims.yaml" in page
     assert 'id="C1"' not in page

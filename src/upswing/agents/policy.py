@@ -83,3 +83,11 @@ def drawn(shares: Q, draw: float) -> int:
         if draw < 0.0:
             return action
     return last
+
+
+@compiled
+def softmax_choice(preferences: Q, rule: Rule, draw: float) -> int:
+    """An action drawn by its probability; with α = 0, where a policy is tried out, the likeliest."""
+    if rule.step_size == 0.0:
+        return epsilon_greedy(preferences, 0.0, rule.random_ties, draw)
+    return drawn(softmax(preferences), draw)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeVar
 from upswing.study.claims import OF_THE_THESIS, Claim, file_of_claims, load_claims
 from upswing.study.config import Study, from_snakemake, load, validated
 from upswing.study.errors import BadInput
-from upswing.study.own_files import placed
+from upswing.study.own_files import CLAIMS, placed
 from upswing.study.project_files import Files, along
 from upswing.study.results_folder import check_results
 from upswing.study.sweeps import Sweep, load_sweeps
@@ -78,8 +78,12 @@ def asked_of_module(config: Mapping[str, Any], files: Files) -> Asked:
 
     def read() -> Study:
         problems: list[str] = []
-        content = placed(source, dict(config), Path(), problems)
-        return validated({source: content}, problems=problems)
+        own = {
+            key: value for key, value in config.items() if key == CLAIMS
+        }  # already a path from here
+        content = placed(source, {**config, CLAIMS: None}, Path(), problems)
+        del content[CLAIMS]
+        return validated({source: {**content, **own}}, problems=problems)
 
     return _asked(
         read if config else lambda: load(files.config), source, files.claims, files.sweeps

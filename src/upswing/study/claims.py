@@ -21,6 +21,7 @@ from upswing.study.config import Study
 from upswing.study.errors import BadInput, explained, near, problem
 from upswing.study.known_cells import check_cells
 from upswing.study.names import CellName, ClaimName, Name, Text
+from upswing.study.physical import PendulumOptions, TileOptions
 from upswing.study.project_files import along
 from upswing.study.values import Strict, listed
 from upswing.study.yaml_file import read_yaml
@@ -112,8 +113,11 @@ def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:
         raise BadInput(explained(Claims, error, lambda *_: str(path))) from None
     if study is not None:
         check_cells(dict(cells_of_claims(claims)), study, path)
-        if unknown := list(_unknown_figures(claims, study, path)):
-            raise BadInput(unknown)
+        if wrong := [
+            *_unknown_figures(claims, study, path),
+            *_not_represented(claims, study, path),
+        ]:
+            raise BadInput(wrong)
     return claims
 
 
@@ -124,6 +128,18 @@ def _unknown_figures(claims: Mapping[str, Claim], study: Study, path: Path) -> I
             there = study.figure_names or ("none",)
             right = f"no figure of this study; {near(claim.figure, there)}"
             yield problem(str(path), f"{name}.figure", claim.figure, right)
+
+
+def _not_represented(claims: Mapping[str, Claim], study: Study, path: Path) -> Iterator[str]:
+    """Claims about what a table can represent where the search for that is about another system."""
+    for name, claim in claims.items():
+        asks = any(part.kind == "share_represented" for part in claim.parts)
+        task = study.tasks.get(claim.cell.partition("/")[0]) if asks and claim.cell else None
+        if task is not None and (task.pendulum, task.tiles) != (PendulumOptions(), TileOptions()):
+            right = (
+                "what a table can represent is searched for the thesis's pendulum and tiles alone"
+            )
+            yield problem(str(path), f"{name}.cell", claim.cell, right)
 
 
 def cells_of_claims(claims: Mapping[str, Claim]) -> Iterator[tuple[str, str]]:

@@ -69,7 +69,9 @@ def test_verdicts_in_a_pipe_are_a_line_a_claim(folder):
     assert (
         len(lines) == len(CLAIMS) + 3
     )  # how to repeat it, the header, how many have which verdict
-    assert lines[-1].startswith(f"{len(CLAIMS)} claims: ")
+    empirical = [claim for claim in CLAIMS.values() if not claim.check]
+    assert lines[-1].startswith(f"{len(empirical)} empirical claims: ")
+    assert f"; {len(CLAIMS) - len(empirical)} checks: " in lines[-1]
     assert not BOXES.search(done.stdout)
     assert not ANSI.search(done.stdout)
 

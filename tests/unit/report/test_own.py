@@ -175,6 +175,13 @@ def test_verdicts_are_shown_where_a_cell_is_judged_and_the_study_judges():
     assert not is_own(load(Path("config/beyond.yaml")), [])  # the thesis's chapter
 
 
+def test_a_study_with_claims_of_its_own_is_ones_own():
+    thesis = load(ROOT / "config/config.yaml")
+    verdicts = [row("P1", "reproduced", "full-control/table/alpha-0.01")]
+    assert not is_own(thesis, verdicts)
+    assert is_own(thesis.model_copy(update={"claims": "config/mine.yaml"}), verdicts)
+
+
 def test_a_title_is_made_of_what_learns_at_what():
     assert title_of(validated({"study": OWN})) == "Table at swing-up"
     assert (

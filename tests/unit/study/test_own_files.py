@@ -10,7 +10,7 @@ from upswing.study import jobs
 from upswing.study.check import asked, checked
 from upswing.study.claim_parts import Part
 from upswing.study.claims import Claim, load_claims
-from upswing.study.config import from_snakemake, load
+from upswing.study.config import from_snakemake, load, validated
 from upswing.study.errors import BadInput
 from upswing.study.own_figures import FigureFile
 
@@ -209,3 +209,30 @@ def test_every_key_of_a_claim_is_in_the_reference():
             assert f"| `{key}` |" in section
             assert field.description
             assert field.description in section
+
+
+@pytest.mark.parametrize(
+    ("own", "refused"),
+    [({}, False), ({"pendulum": {"length": 0.4}}, True), ({"tiles": {"velocity_parts": 8}}, True)],
+)
+def test_what_a_table_can_represent_is_asked_of_the_thesiss_pendulum_alone(tmp_path, own, refused):
+    claim = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))["C9"]
+    path = tmp_path / "claims.yaml"
+    path.write_text(yaml.safe_dump({"C9": claim}), "utf-8")
+    task, architecture, alpha = claim["cell"].split("/")
+    tasks = {
+        name: {"kind": "full-control", "steps": 1_000, **own} for name in (task, "full-control")
+    }
+    study = {
+        "seeds": 1, "tasks": tasks, "architectures": {architecture: {"learner": "table"}},
+        "experiments": [
+            {"tasks": list(tasks), "architectures": [architecture], "alphas": [0.001, 0.01, 1]}
+        ],
+    }  # fmt: skip
+    try:
+        load_claims(path, validated({"study": study}))
+        said = ""
+    except BadInput as error:
+        said = str(error)
+    assert ("searched for the thesis's pendulum and tiles alone" in said) == refused
+    assert (said == "") != refused

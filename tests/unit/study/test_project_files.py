@@ -72,7 +72,11 @@ def test_a_module_reads_the_workflows_files_and_those_that_are_named(tmp_path, m
     assert files_of_module(ROOT, {})[0].claims == ROOT / CLAIMS
     Path("mine.yaml").touch()
     found, study = files_of_module(ROOT, {"seeds": 2, "claims": "mine.yaml"})
-    assert (found.claims, found.sweeps, study) == (Path("mine.yaml"), ROOT / SWEEPS, {"seeds": 2})
+    named = {
+        "seeds": 2,
+        "claims": "mine.yaml",
+    }  # the results must know whose claims they are judged by
+    assert (found.claims, found.sweeps, study) == (Path("mine.yaml"), ROOT / SWEEPS, named)
 
 
 def test_what_a_module_names_must_be_there():

@@ -25,7 +25,7 @@ from upswing.agents.learners import (
     values_of,
 )
 from upswing.agents.learners.softmax import actor_of, critic_of, learned_by
-from upswing.agents.policy import Q, Rule, drawn, epsilon_greedy, softmax
+from upswing.agents.policy import Q, Rule, softmax, softmax_choice
 from upswing.physics.jit import inlined, with_item
 from upswing.study.actor import ActorOptions
 from upswing.study.values import Positive
@@ -80,9 +80,7 @@ def _state_value(policy: Gaussian, place: Any) -> float:
 
 @choose_of(Gaussian)
 def _choose(_policy: Gaussian, q: Q, rule: Rule, draw: float) -> int:
-    if rule.step_size == 0.0:  # it is tried out
-        return epsilon_greedy(q, 0.0, rule.random_ties, draw)
-    return drawn(softmax(q), draw)
+    return softmax_choice(q, rule, draw)
 
 
 @update_of(Gaussian)

@@ -21,7 +21,7 @@ from upswing.agents.learners import (
     values,
     values_of,
 )
-from upswing.agents.policy import Q, Rule, drawn, epsilon_greedy, softmax
+from upswing.agents.policy import Q, Rule, softmax, softmax_choice
 from upswing.study.actor import ActorOptions
 from upswing.study.loading import load
 
@@ -57,9 +57,7 @@ def _state_value(policy: Softmax, place: Any) -> float:
 
 @choose_of(Softmax)
 def _choose(_policy: Softmax, q: Q, rule: Rule, draw: float) -> int:
-    if rule.step_size == 0.0:  # it is tried out
-        return epsilon_greedy(q, 0.0, rule.random_ties, draw)
-    return drawn(softmax(q), draw)
+    return softmax_choice(q, rule, draw)
 
 
 @update_of(Softmax)

@@ -1,6 +1,6 @@
 """How the claims do over readings, for a study that has not swept them: what the project brings along.
 
-``make readings`` takes half an hour, so its result comes with the project, ``report/readings.json``,
+``make readings`` takes forty minutes, so its result comes with the project, ``report/readings.json``,
 which ``make readme`` renews. A claim that has been changed since is not what was judged there, and takes
 nothing.
 """

@@ -65,12 +65,15 @@ def readme(
     from upswing.report.readme import write_readme
     from upswing.runs.study_file import read_study
     from upswing.study import jobs
+    from upswing.study.errors import BadInput
     from upswing.study.registration import of
     from upswing.study.sweeps import load_sweeps
 
     needs_checkout("upswing readme", templates, readme)
     folder = results_folder(results, positional)
     study = read_study(folder)
+    if study.claims or study.title or not study.judges:
+        raise BadInput([f"{folder}: is of a study of one's own; the README shows the thesis's"])
     judged, swept = claims_of(study, claims), load_sweeps(sweeps, study)
     codes = {f"code of {name}": jobs.sweep(one, study).fingerprint for name, one in swept.items()}
     made_from = {"sweeps": of(study, judged, swept).sweeps, **codes}

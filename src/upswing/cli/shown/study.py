@@ -18,7 +18,12 @@ def print_matrix(matrix: Matrix) -> None:
     ]
     print_table(("cell", "runs", "steps a run"), rows, right=("runs", "steps a run"))
     steps = sum(cell.task.steps * len(cell.seeds) for cell in matrix.cells.values())
-    say(f"{len(matrix.cells)} cells, {len(list(matrix.runs))} runs, {steps:,} steps")
+    runs = _number(len(list(matrix.runs)), "run")
+    say(f"{_number(len(matrix.cells), 'cell')}, {runs}, {steps:,} steps")
+
+
+def _number(count: int, of: str) -> str:
+    return f"{count:,} {of}{'' if count == 1 else 's'}"
 
 
 def outlook_in_words(outlook: "Outlook", results: str) -> str:

@@ -19,6 +19,12 @@ COLOURS = {
 HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "what is claimed")
 
 
+def _counted(rows: list[dict[str, Any]]) -> str:
+    """How many of these have which verdict."""
+    shown = Counter(words_of(row["verdict"], row["could_be_better"]) for row in rows)
+    return ", ".join(f"{shown[each]} {each}" for each in COLOURS if shown[each])
+
+
 def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool = True) -> None:
     """Print a row for each claim, below it what more is known of it, and how many have which verdict.
 
@@ -36,10 +42,16 @@ def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool =
         below=[_details(row) for row in found] if details else (),
         colours=COLOURS,
     )
-    shown = Counter(words_of(row["verdict"], row["could_be_better"]) for row in found)
-    counts = ", ".join(f"{shown[each]} {each}" for each in COLOURS if shown[each])
+    claims, checks = (
+        [row for row in found if bool(row["check"]) == is_check] for is_check in (0, 1)
+    )
+    counts = "; ".join(
+        f"{len(rows)} {what}: {_counted(rows)}"
+        for what, rows in (("empirical claims", claims), ("checks", checks))
+        if rows
+    )
     more = "" if details else "; --details says what was measured"
-    say(f"{len(found)} claims: {counts}{more}")
+    say(f"{counts}{more}")
     if not judges:
         say(
             "nothing of this counts: the study has `judges: false`, its runs are too few or too short"
