@@ -219,7 +219,7 @@ def test_what_a_table_can_represent_is_asked_of_the_thesiss_pendulum_alone(tmp_p
     claim = yaml.safe_load((ROOT / "config/claims.yaml").read_text("utf-8"))["C9"]
     path = tmp_path / "claims.yaml"
     path.write_text(yaml.safe_dump({"C9": claim}), "utf-8")
-    task, architecture, alpha = claim["cell"].split("/")
+    task, architecture, _ = claim["cell"].split("/")
     tasks = {
         name: {"kind": "full-control", "steps": 1_000, **own} for name in (task, "full-control")
     }
