@@ -14,9 +14,9 @@ import pandas as pd
 
 from upswing.agents.features.grid import Tiles, tiles_for
 from upswing.agents.prediction import (
-    AVERAGE,
     Array,
     Experience,
+    StepSize,
     monte_carlo,
     n_step,
     predict,
@@ -38,12 +38,12 @@ from upswing.study.readings import Readings
 
 THESIS = TileOptions()
 FINER = TileOptions(angle_parts=16, velocity_parts=80)
-"""Tiles a quarter as wide and high: they hide little of the state."""
+"""Tiles a quarter as wide and high: they hide less of the state."""
 
 PROBLEMS = ((0.7, THESIS), (0.97, THESIS), (0.97, FINER))
-"""γ and tiles: the thesis's own (§4.5.1), a longer view, and that where the tiles are nearly Markov."""
+"""γ and tiles: the thesis's own (§4.5.1); a longer view; and that on finer tiles."""
 
-METHODS: dict[str, Callable[[int, float], Any]] = {
+METHODS: dict[str, Callable[[int, StepSize], Any]] = {
     "TD(0)": td.create,
     "4-step TD": lambda tiles, step_size: n_step.create(tiles, step_size, 4),
     "16-step TD": lambda tiles, step_size: n_step.create(tiles, step_size, 16),
@@ -57,14 +57,17 @@ METHODS: dict[str, Callable[[int, float], Any]] = {
 }  # fmt: skip
 """From the most bootstrapping to none."""
 
-STEP_SIZES = (AVERAGE, *(2.0**-power for power in range(1, 10)))
-"""1/N(s), and α from 1/2 to 1/512."""
+STEP_SIZES = (
+    *(StepSize(2.0**-power) for power in range(1, 10)),
+    *(StepSize(1.0, halved_after) for halved_after in (1, 3, 10, 30, 100, 300, 1000)),
+)
+"""A constant α from 1/2 to 1/512; and such as decay from 1, the first of which averages all targets."""
 
 STEPS = 100_000
 MOMENTS = np.unique(np.geomspace(100, STEPS, 31).round().astype(np.int64))
 """The numbers of steps after which an error is measured: evenly spaced on a log scale."""
 
-CHOOSING, SHOWN = range(40_000, 40_020), range(41_000, 41_100)
+CHOOSING, SHOWN = range(40_000, 40_020), range(43_000, 43_100)
 """The seeds that step sizes are chosen on, and those of the runs that are shown."""
 
 REFERENCE, MET = 42_000, 3_000_000
@@ -83,7 +86,8 @@ class Row(NamedTuple):
     discount: float  # γ
     tiles: int  # how many there are
     method: str  # of ``METHODS``
-    step_size: float  # α; 0 stands for 1/N(s)
+    step_size: float  # α of the first update of a tile
+    halved_after: float  # how many updates halve it; none where it is constant
     seeds: str  # ``choosing``, or ``shown``: those of the step size that was chosen
     runs: int  # how many seeds
     steps: int  # the pendulum's steps so far
@@ -121,7 +125,8 @@ def write_prediction(results: Path, body: Pendulum | None = None) -> None:
         problem, found = posed(body or Pendulum(), discount, options)
         limits += found
         rows += compared(problem)
-    write_table(results / PREDICTION, pd.DataFrame(rows))
+    table = pd.DataFrame(rows).replace({"halved_after": {np.inf: np.nan}})
+    write_table(results / PREDICTION, table)
     write_table(results / PREDICTION_LIMITS, pd.DataFrame(limits))
     seal(results, "prediction", [results / PREDICTION, results / PREDICTION_LIMITS])
 
@@ -171,7 +176,7 @@ def _half(grid: Grid) -> Grid:
     return grid._replace(rows=grid.rows // 2, columns=(grid.columns + 1) // 2)
 
 
-Candidate = tuple[str, float]
+Candidate = tuple[str, StepSize]
 """A method and its step size."""
 
 
@@ -188,7 +193,7 @@ def compared(problem: Problem) -> list[Row]:
     ]
 
 
-def best(tried: Mapping[Candidate, Array], method: str) -> float:
+def best(tried: Mapping[Candidate, Array], method: str) -> StepSize:
     """The rule: the step size with the least error, averaged over all moments and seeds.
 
     One with which any run overflowed is not taken.
@@ -223,7 +228,8 @@ def errors_of(
 
 def _rows(problem: Problem, candidate: Candidate, seeds: str, errors: Array) -> list[Row]:
     low, high = np.quantile(errors, BAND, axis=0)
-    of = (problem.discount, problem.tiles.tiles, *candidate, seeds, len(errors))
+    method, (first, halved_after) = candidate
+    of = (problem.discount, problem.tiles.tiles, method, first, halved_after, seeds, len(errors))
     columns = zip(MOMENTS.tolist(), errors.mean(axis=0), low, high, strict=True)
     return [
         Row(*of, steps, float(mean), float(least), float(most))

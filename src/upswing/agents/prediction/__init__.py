@@ -5,6 +5,7 @@ named tuple of arrays, stepped in place; its file gives a body to ``learn``, whi
 in order, and looks at nothing that was met later.
 """
 
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,8 +19,16 @@ Whole = NDArray[np.int64]
 ENDED = -1
 """The tile of a state that ends an episode: nothing follows, so its value is 0."""
 
-AVERAGE = 0.0
-"""The step size that stands for 1/N(s), with which V(s) is the average of its N(s) targets."""
+
+class StepSize(NamedTuple):
+    """How far a tile is moved towards a target: α / (1 + n/h) after n updates, as in ``decaying``."""
+
+    first: float  # α
+    halved_after: float = inf  # h: how many updates halve it
+
+
+AVERAGE = StepSize(1.0, 1.0)
+"""1/N: with it, V of a tile is the average of its N targets."""
 
 
 class Experience(NamedTuple):
@@ -37,11 +46,11 @@ class Estimate(NamedTuple):
     """V as it is so far."""
 
     values: Array  # V, (tiles,) [rad²]
-    updates: Whole  # N: how often each was moved, (tiles,)
-    step_size: float  # α, or AVERAGE
+    updates: Whole  # n: how often each was moved, (tiles,)
+    step_size: StepSize
 
 
-def nothing_known(tiles: int, step_size: float) -> Estimate:
+def nothing_known(tiles: int, step_size: StepSize) -> Estimate:
     """V = 0 in every tile."""
     return Estimate(np.zeros(tiles), np.zeros(tiles, np.int64), step_size)
 
@@ -66,18 +75,17 @@ def value_of(estimate: Estimate, tile: int) -> float:
 
 
 @compiled
-def share(estimate: Estimate, tile: int) -> float:
-    """How far V of a tile is moved towards a target: α, or 1/N."""
-    if estimate.step_size == AVERAGE:
-        return 1.0 / float(estimate.updates[tile])
-    return estimate.step_size
+def share(step_size: StepSize, updates: int) -> float:
+    """How far V of a tile is moved towards a target after so many updates."""
+    return step_size.first / (1.0 + updates / step_size.halved_after)
 
 
 @compiled
 def move(estimate: Estimate, tile: int, target: float) -> None:
     """V(s) ← V(s) + α [target − V(s)]."""
+    step_size = share(estimate.step_size, estimate.updates[tile])
+    estimate.values[tile] += step_size * (target - estimate.values[tile])
     estimate.updates[tile] += 1
-    estimate.values[tile] += share(estimate, tile) * (target - estimate.values[tile])
 
 
 @compiled

@@ -11,6 +11,7 @@ from upswing.agents.prediction import (
     ENDED,
     Estimate,
     Experience,
+    StepSize,
     Whole,
     learn_of,
     move,
@@ -42,6 +43,6 @@ def _learn(method: MonteCarlo, experience: Experience, discount: float, t: int) 
             move(method.estimate, tile, return_)
 
 
-def create(tiles: int, step_size: float, *, first_visit: bool) -> MonteCarlo:
+def create(tiles: int, step_size: StepSize, *, first_visit: bool) -> MonteCarlo:
     """Monte Carlo before its first step."""
     return MonteCarlo(nothing_known(tiles, step_size), first_visit, np.full(tiles, -1))

@@ -10,6 +10,7 @@ from upswing.agents.prediction import (
     ENDED,
     Estimate,
     Experience,
+    StepSize,
     learn_of,
     move,
     nothing_known,
@@ -39,6 +40,6 @@ def _learn(method: NStep, experience: Experience, discount: float, t: int) -> No
         move(method.estimate, experience.tile[visit], target)
 
 
-def create(tiles: int, step_size: float, steps: int) -> NStep:
+def create(tiles: int, step_size: StepSize, steps: int) -> NStep:
     """n-step TD with n = ``steps``, before its first step."""
     return NStep(nothing_known(tiles, step_size), steps)

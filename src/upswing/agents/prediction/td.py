@@ -5,6 +5,7 @@ from typing import NamedTuple
 from upswing.agents.prediction import (
     Estimate,
     Experience,
+    StepSize,
     learn_of,
     move,
     nothing_known,
@@ -25,6 +26,6 @@ def _learn(method: TD0, experience: Experience, discount: float, t: int) -> None
     move(method.estimate, experience.tile[t], target)
 
 
-def create(tiles: int, step_size: float) -> TD0:
+def create(tiles: int, step_size: StepSize) -> TD0:
     """TD(0) before its first step."""
     return TD0(nothing_known(tiles, step_size))

@@ -14,11 +14,13 @@ from upswing.agents.prediction import (
     Array,
     Estimate,
     Experience,
+    StepSize,
     learn_of,
     nothing_known,
     share,
     value_of,
 )
+from upswing.physics.jit import compiled
 
 
 class TDLambda(NamedTuple):
@@ -36,28 +38,30 @@ def _learn(method: TDLambda, experience: Experience, discount: float, t: int) ->
     """δ = r + γ V(s′) − V(s); then V(i) ← V(i) + α δ e(i) for every tile i."""
     estimate, tile, after = method.estimate, experience.tile[t], experience.after[t]
     td_error = experience.reward[t] + discount * value_of(estimate, after) - estimate.values[tile]
-    starts_anew = t == experience.begun[t]
-    decay = 0.0 if starts_anew else discount * method.trace
+    decay = 0.0 if t == experience.begun[t] else discount * method.trace
     for i in range(len(method.traces)):
         method.traces[i] *= decay
     method.traces[tile] += 1.0
     estimate.updates[tile] += 1
     for i in range(len(method.traces)):
-        if starts_anew:
-            method.waiting[i] = 0.0
-        if method.traces[i] == 0.0:
-            continue
-        if method.offline:
-            method.waiting[i] += td_error * method.traces[i]
-        else:
-            estimate.values[i] += share(estimate, i) * td_error * method.traces[i]
-    if method.offline and after == ENDED:
-        for i in range(len(method.traces)):
-            if method.waiting[i] != 0.0:
-                estimate.values[i] += share(estimate, i) * method.waiting[i]
+        if method.traces[i] != 0.0 or method.waiting[i] != 0.0:
+            _move(method, i, td_error * method.traces[i], after == ENDED)
 
 
-def create(tiles: int, step_size: float, trace: float, *, offline: bool = False) -> TDLambda:
+@compiled
+def _move(method: TDLambda, tile: int, moved: float, at_end: bool) -> None:
+    """Move V of a tile with the step size of its latest visit; offline, once the episode is over."""
+    if method.offline:
+        method.waiting[tile] += moved
+        if not at_end:
+            return
+        moved = method.waiting[tile]
+        method.waiting[tile] = 0.0
+    step_size = share(method.estimate.step_size, method.estimate.updates[tile] - 1)
+    method.estimate.values[tile] += step_size * moved
+
+
+def create(tiles: int, step_size: StepSize, trace: float, *, offline: bool = False) -> TDLambda:
     """TD(λ) with λ = ``trace``, before its first step."""
     estimate = nothing_known(tiles, step_size)
     return TDLambda(estimate, trace, offline, np.zeros(tiles), np.zeros(tiles))
