@@ -28,6 +28,7 @@ from upswing.study.paths import (
     TILES,
     VIEWER_PAGE,
 )
+from upswing.study.paths_beyond import PREDICTION, PREDICTION_LIMITS
 from upswing.report.targets import Targets, templates
 from upswing.report.targets_of_sweeps import ASKING_FOR_READINGS
 from upswing.runs.as_module import check_paths, is_module, own_names

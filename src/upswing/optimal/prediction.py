@@ -27,6 +27,7 @@ from upswing.agents.prediction.experience import met_at_random
 from upswing.optimal import tile_values
 from upswing.optimal.random_actions import at_states, values_at_random
 from upswing.optimal.state_grid import VELOCITY_LIMIT, Grid
+from upswing.optimal.tables import BAND, HALF_AS_FINE, SIZE, SPREAD, VARYING
 from upswing.optimal.tile_values import TileValues
 from upswing.physics import tasks
 from upswing.physics.pendulum import Pendulum
@@ -75,9 +76,6 @@ REFERENCE, MET = 42_000, 3_000_000
 
 GRID = Grid(720, 801)
 """The grid on which V is exact; the one half as fine says how exact."""
-
-BAND = (0.1, 0.9)
-"""The quantiles over seeds between which the band of a line lies."""
 
 
 class Row(NamedTuple):
@@ -152,19 +150,24 @@ def _limits(
     met: Experience, exact: Array, rough: Array, truth: TileValues, discount: float
 ) -> Iterator[tuple[str, float]]:
     """Each quantity [rad²]; that of a method is where its error goes with ever more steps."""
-    tiles = len(truth.mean)
-    yield "V", float(np.sqrt(np.mean(exact**2)))
-    yield "spread of V inside a tile", truth.spread
-    yield "V on a grid half as fine", _error(tile_values.means(met.tile, rough, tiles), truth)
+    tiles, return_ = len(truth.mean), tile_values.returns(met, discount)
+    yield SIZE, _root_mean_square(exact)
+    yield SPREAD, truth.spread
+    yield VARYING, _root_mean_square(return_ - exact)
+    yield HALF_AS_FINE, _error(tile_values.means(met.tile, rough, tiles), truth)
     for method, steps in (("TD(0)", 1), ("4-step TD", 4), ("16-step TD", 16)):
         yield method, _error(tile_values.n_step_fixed_point(met, discount, tiles, steps), truth)
-    for method, trace in (("TD(0.9)", 0.9), ("every-visit Monte Carlo", 1.0)):
-        yield method, _error(tile_values.lambda_fixed_point(met, discount, tiles, trace), truth)
+    yield "TD(0.9)", _error(tile_values.lambda_fixed_point(met, discount, tiles, 0.9), truth)
     first = tile_values.first_visits(met, tiles)
-    yield (
-        "first-visit Monte Carlo",
-        _error(tile_values.means(met.tile[first], exact[first], tiles), truth),
-    )
+    for method, visits in (
+        ("first-visit Monte Carlo", first),
+        ("every-visit Monte Carlo", slice(None)),
+    ):
+        yield method, _error(tile_values.means(met.tile[visits], return_[visits], tiles), truth)
+
+
+def _root_mean_square(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _error(values: Array, truth: TileValues) -> float:

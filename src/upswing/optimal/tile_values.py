@@ -44,6 +44,13 @@ def error(values: Array, truth: TileValues) -> Array:
     return wrong
 
 
+def returns(experience: Experience, discount: float) -> Array:
+    """The discounted rewards from each step to the end of its episode, (steps,) [rad²]."""
+    found = np.zeros(len(experience.reward))
+    _return_from_last(experience, discount, found)
+    return found
+
+
 def first_visits(experience: Experience, tiles: int) -> Whole:
     """The steps in which an episode comes to a tile for the first time."""
     visit = experience.begun * tiles + experience.tile
@@ -71,6 +78,16 @@ def lambda_fixed_point(experience: Experience, discount: float, tiles: int, trac
     _sum_up_traces(experience, discount, trace, traces, system, rewards)
     unvisited = np.bincount(experience.tile, minlength=tiles) == 0
     return np.linalg.solve(system + np.diag(1.0 * unvisited), rewards).astype(np.float64)
+
+
+@compiled
+def _return_from_last(experience: Experience, discount: float, found: Array) -> None:
+    following = 0.0
+    for t in range(len(found) - 1, -1, -1):
+        if experience.after[t] == ENDED:
+            following = 0.0
+        following = experience.reward[t] + discount * following
+        found[t] = following
 
 
 @compiled

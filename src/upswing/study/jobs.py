@@ -50,6 +50,9 @@ def bound() -> Code:
 
 
 SETTLING = Code(("upswing.optimal.settling",), COMPUTING_PACKAGES)
+PREDICTION = Code(
+    ("upswing.optimal.prediction", module_of("tasks", "balancing")), COMPUTING_PACKAGES
+)
 
 
 def tiles() -> Code:
