@@ -3,11 +3,11 @@
 from typing import TYPE_CHECKING
 
 from upswing.figures.declaration import Declaration
-from upswing.optimal.tables import (
+from upswing.optimal.prediction_tables import (
     BAND,
+    OF_LIMITS,
     OF_PREDICTION,
-    OF_PREDICTION_LIMITS,
-    PREDICTION_REMEDY,
+    REMEDY,
     SIZE,
     SPREAD,
     VARYING,
@@ -30,6 +30,12 @@ COLOURS = ("#0072B2", "#3A97D3", "#009E73", "#CC79A7", "#A65628", "#D55E00")
 FEWEST = "TD(0)"
 """The method that waits for the fewest rewards before it bootstraps."""
 
+DASHES = {"every-visit Monte Carlo": (0, (4, 2))}
+"""Dashed, so that what lies below it is seen: with a small γ, n steps are as good as all."""
+
+FILLED = {"first-visit Monte Carlo": "none"}
+"""Hollow, so that the mark of another method is seen in its own."""
+
 BEYOND = 1.6
 """Where the limit of a method is marked: at so many times the last number of steps."""
 
@@ -41,8 +47,8 @@ def draw(results: "Results") -> "Drawing":
     from upswing.figures.style import WIDTH, subplots
     from upswing.runs.files.typed_table import read_table
 
-    table = read_table(results.folder / PREDICTION, OF_PREDICTION, PREDICTION_REMEDY)
-    limits = read_table(results.folder / PREDICTION_LIMITS, OF_PREDICTION_LIMITS, PREDICTION_REMEDY)
+    table = read_table(results.folder / PREDICTION, OF_PREDICTION, REMEDY)
+    limits = read_table(results.folder / PREDICTION_LIMITS, OF_LIMITS, REMEDY)
     shown = table[table["seeds"] == "shown"]
     methods = list(dict.fromkeys(shown["method"]))
     shades = dict(zip(methods, COLOURS, strict=False))
@@ -53,7 +59,10 @@ def draw(results: "Results") -> "Drawing":
         for method in methods:
             one = of_problem[of_problem["method"] == method]
             colour = shades[method]
-            panel.loglog(one["steps"], one["error"], color=colour, linewidth=1.2, label=method)
+            panel.loglog(
+                one["steps"], one["error"], linestyle=DASHES.get(method, "-"),
+                color=colour, linewidth=1.2, label=method,
+            )  # fmt: skip
             panel.fill_between(
                 one["steps"], one["low"], one["high"], color=colour, alpha=0.15, linewidth=0
             )
@@ -62,7 +71,7 @@ def draw(results: "Results") -> "Drawing":
             if known[method] > bottom:
                 panel.plot(
                     BEYOND * shown["steps"].max(), known[method], "<",
-                    color=shades[method], markersize=4,
+                    color=shades[method], markersize=4.5, fillstyle=FILLED.get(method, "full"),
                 )  # fmt: skip
         panel.set_title(f"γ = {problem[0]:g}, {problem[1]:,} tiles")
         panel.set_xlabel("steps")
@@ -89,23 +98,23 @@ def _caption(
     """What is drawn, and what bootstrapping comes to, asked of the tables."""
     far = [problem for problem in problems if problem[0] == problems[-1][0]]
     known = [_limits(limits, problem) for problem in far]
-    ends = "; ".join(
-        f"{tiles:,} tiles, {one[FEWEST]:.2f} rad²"
+    ends = ", ".join(
+        f"{one[FEWEST]:.2f} rad² off with {tiles:,} tiles"
         for (_, tiles), one in zip(far, known, strict=True)
     )
     size, spread, varying = (known[0][quantity] for quantity in (SIZE, SPREAD, VARYING))
     met = ", ".join(f"{method} {error:.2f}" for method, error in _ended(shown, far[0]))
     return (
-        "All methods learn from the same episodes, of balancing with random actions. The error of V is "
-        "that of a tile against the mean of the exact V of its states, root mean square over the steps. "
-        f"Lines are means over {int(shown['runs'].iloc[0])} seeds, bands hold the middle "
-        f"{100 * (BAND[1] - BAND[0]):.0f} % of them, and each method has the step size that was best "
-        "on other seeds. Triangles mark where a method goes with ever more steps, where that is in "
-        f"the picture. What to see, with γ = {far[0][0]:g}, where V is of the size of {size:.1f} rad²: "
-        f"{FEWEST}, which bootstraps most, does not come to the exact values, since tiles hide a part "
-        f"of the state; its limits are: {ends}. Waiting costs variance. Returns of one state vary by "
-        f"{varying:.2f} rad², against the {spread:.2f} rad² by which V varies inside a tile (of "
-        f"{far[0][1]:,}) anyway. Errors there after {int(shown['steps'].max()):,} steps: {met}."
+        "All methods learn from the same episodes of balancing with random actions. The error of a tile "
+        "is that against the mean of the exact V of its states; its root mean square over the steps is "
+        f"drawn, as the mean over {int(shown['runs'].iloc[0])} seeds and a band of the middle "
+        f"{100 * (BAND[1] - BAND[0]):.0f} % of them, each method with the step size that was best on "
+        "other seeds. Triangles mark where methods go with ever more steps. What to see with "
+        f"γ = {far[0][0]:g}, where V is of the size of {size:.1f} rad²: {FEWEST}, which bootstraps most, "
+        f"does not end at the exact values, since a tile hides a part of the state ({ends}). First "
+        "visits do not either: they are those states of a tile in which it is entered. For comparison, "
+        f"returns of one state vary by {varying:.2f} rad², and V inside one of the {far[0][1]:,} tiles by "
+        f"{spread:.2f} rad². Errors there after {int(shown['steps'].max()):,} steps [rad²]: {met}."
     )
 
 

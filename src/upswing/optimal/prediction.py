@@ -25,9 +25,9 @@ from upswing.agents.prediction import (
 )
 from upswing.agents.prediction.experience import met_at_random
 from upswing.optimal import tile_values
+from upswing.optimal.prediction_tables import BAND, HALF_AS_FINE, SIZE, SPREAD, VARYING
 from upswing.optimal.random_actions import at_states, values_at_random
 from upswing.optimal.state_grid import VELOCITY_LIMIT, Grid
-from upswing.optimal.tables import BAND, HALF_AS_FINE, SIZE, SPREAD, VARYING
 from upswing.optimal.tile_values import TileValues
 from upswing.physics import tasks
 from upswing.physics.pendulum import Pendulum

@@ -14,22 +14,5 @@ OF_SETTLING = {
     "method": "text", "discount": "number", "backups": "whole", "improvements": "whole",
     "error": "number", "worse": "number",
 }  # fmt: skip
-OF_PREDICTION = {
-    "discount": "number", "tiles": "whole", "method": "text", "step_size": "number",
-    "halved_after": "number", "seeds": "text", "runs": "whole", "steps": "whole",
-    "error": "number", "low": "number", "high": "number",
-}  # fmt: skip
-OF_PREDICTION_LIMITS = {
-    "discount": "number", "tiles": "whole", "quantity": "text", "value": "number",
-}  # fmt: skip
-SIZE, SPREAD = "V", "spread of V inside a tile"
-VARYING = "spread of the returns of a state"
-HALF_AS_FINE = "V on a grid half as fine"
-"""Quantities of the limits of prediction, beside the methods."""
-
-BAND = (0.1, 0.9)
-"""The quantiles over seeds in the table of prediction."""
-
-PREDICTION_REMEDY = "`upswing prediction` makes it"
 SETTLING_REMEDY = "`upswing settling` makes it"
 REMEDY = "`upswing bound` makes it"
