@@ -112,9 +112,10 @@ def _caption(
         "other seeds. Triangles mark where methods go with ever more steps. What to see with "
         f"γ = {far[0][0]:g}, where V is of the size of {size:.1f} rad²: {FEWEST}, which bootstraps "
         f"most, does not end at the exact values, since a tile hides a part of the state ({ends}). "
-        "First visits do not either: they are those states of a tile in which it is entered. For comparison, "
-        f"returns of one state vary by {varying:.2f} rad², and V inside one of the {far[0][1]:,} tiles "
-        f"by {spread:.2f} rad². Errors there after {int(shown['steps'].max()):,} steps [rad²]: {met}."
+        "First visits do not either: they are those states of a tile in which it is entered. For "
+        f"comparison, returns of one state vary by {varying:.2f} rad², and V inside one of the "
+        f"{far[0][1]:,} tiles by {spread:.2f} rad². Errors there after "
+        f"{int(shown['steps'].max()):,} steps [rad²]: {met}."
     )
 
 
