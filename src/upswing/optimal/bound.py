@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from upswing.optimal.body import body_of_study
 from upswing.optimal.policies import act
 from upswing.optimal.rows import Row, exact, explored_optimal, of_grid, thresholds
 from upswing.optimal.solved import Solved, solve
@@ -18,8 +19,7 @@ from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
 from upswing.runs.files.ledger import seal
 from upswing.runs.files.tables import write_table
-from upswing.runs.simulation import body_of
-from upswing.study.config import Study, pendulum_of_bound
+from upswing.study.config import Study
 from upswing.study.paths import BOUND, MAPS
 
 GRIDS = (Grid(180, 201), Grid(360, 401), Grid(720, 801))
@@ -45,11 +45,6 @@ def write_bound(results: Path, study: Study | None = None) -> None:
     write_table(results / BOUND, pd.DataFrame(rows).astype({"discount": "float64"}))
     write_table(results / MAPS, maps(solved))
     seal(results, "bound", [results / BOUND, results / MAPS])
-
-
-def body_of_study(study: Study | None) -> Pendulum:
-    """The pendulum of a study's first task of full control, or the thesis's."""
-    return body_of(pendulum_of_bound(study)) if study else Pendulum()
 
 
 def grids_for(body: Pendulum) -> list[Grid]:

@@ -49,9 +49,13 @@ def bound() -> Code:
     return learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
 
 
-SETTLING = Code(("upswing.optimal.settling",), COMPUTING_PACKAGES)
+OF_ITS_PENDULUM = ("upswing.optimal.body", "upswing.runs.study_file")
+"""What reads a study and tells its pendulum, for jobs that need no more of it."""
+
+SETTLING = Code(("upswing.optimal.settling", *OF_ITS_PENDULUM), COMPUTING_PACKAGES)
 PREDICTION = Code(
-    ("upswing.optimal.prediction", module_of("tasks", "balancing")), COMPUTING_PACKAGES
+    ("upswing.optimal.prediction", *OF_ITS_PENDULUM, module_of("tasks", "balancing")),
+    COMPUTING_PACKAGES,
 )
 
 

@@ -150,7 +150,7 @@ def bound(positional: Positional = None, results: Named = None, study: AskedStud
 @panel.subcommand("settling", cls=Job)
 def settling(positional: Positional = None, results: Named = None, study: AskedStudy = "") -> None:
     """Watch value and policy iteration settle, sweep by sweep (tables/settling.parquet)."""
-    from upswing.optimal.bound import body_of_study
+    from upswing.optimal.body import body_of_study
     from upswing.optimal.settling import write_settling
 
     folder = results_folder(results, positional)
@@ -162,7 +162,7 @@ def prediction(
     positional: Positional = None, results: Named = None, study: AskedStudy = ""
 ) -> None:
     """Let TD and Monte Carlo predict what random actions are worth (tables/prediction.parquet)."""
-    from upswing.optimal.bound import body_of_study
+    from upswing.optimal.body import body_of_study
     from upswing.optimal.prediction import write_prediction
 
     folder = results_folder(results, positional)
