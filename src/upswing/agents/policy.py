@@ -1,8 +1,9 @@
-"""Choosing an action: the ε-greedy policy of §3.1.2."""
+"""Choosing an action: the ε-greedy policy of §3.1.2, and one that draws by probabilities."""
 
 from typing import NamedTuple
 
-from upswing.physics.jit import compiled, inlined
+from upswing.physics.elementary import exp_of_negative
+from upswing.physics.jit import compiled, inlined, with_item
 
 Q = tuple[float, ...]
 """One value for each action; how many there are is known when the loop is compiled."""
@@ -56,3 +57,29 @@ def epsilon_greedy(q: Q, epsilon: float, random_ties: bool, draw: float) -> int:
                 return action
             chosen -= 1
     return best
+
+
+@compiled
+def softmax(preferences: Q) -> Q:
+    """The probability of each action, in proportion to e to the power of its preference."""
+    highest = max(preferences)
+    shares = preferences
+    total = 0.0
+    for action in range(len(preferences)):
+        share = exp_of_negative(preferences[action] - highest)
+        shares = with_item(shares, action, share)
+        total += share
+    for action in range(len(preferences)):
+        shares = with_item(shares, action, shares[action] / total)
+    return shares
+
+
+@compiled
+def drawn(shares: Q, draw: float) -> int:
+    """The action of a policy with probabilities ``shares`` by one ``draw`` from [0, 1)."""
+    last = len(shares) - 1
+    for action in range(last):
+        draw -= shares[action]
+        if draw < 0.0:
+            return action
+    return last

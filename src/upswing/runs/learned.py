@@ -69,7 +69,8 @@ class Learned:
         """Q of the actions [the unit of R3] in states φ [rad], φ̇ [rad/s].
 
         Both are numbers or arrays, of shapes that go together; the answer has that shape and behind it
-        the actions, in the order of ``accelerations``. They are what the loop reads, bit for bit.
+        the actions, in the order of ``accelerations``. They are what the loop reads, bit for bit. Of a
+        learner that holds a policy and no Q they are its preferences.
         """
         return self._asked(angle, angular_velocity)[0]
 

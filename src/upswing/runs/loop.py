@@ -7,8 +7,8 @@ import numpy as np
 
 from upswing.agents.algorithms import Step, after_choice, before_choice, learn_from
 from upswing.agents.features import locate
-from upswing.agents.learners import values
-from upswing.agents.policy import Rule, epsilon_greedy
+from upswing.agents.learners import choose, values
+from upswing.agents.policy import Rule
 from upswing.physics.environment import NEVER, State, Trajectory, record, transition
 from upswing.physics.jit import compiled
 from upswing.physics.pendulum import Pendulum
@@ -56,7 +56,7 @@ def learn(
         if is_finite and not isfinite(sum(q)):
             trajectory.diverged_at[0] = t
             is_finite = learns = False
-        action = epsilon_greedy(q, rule.epsilon, rule.random_ties, actions.random())
+        action = choose(learner, q, rule, actions.random())
         if learns:
             after_choice(algorithm, encoder, learner, rule, td_errors, place, action)
 

@@ -16,6 +16,9 @@ from upswing.study.values import Discount, Share, Strict
 Features = Literal["tile", "tiles", "state"]
 """What a feature encoder says of a state: the tile that it lies in, several that overlap, or (φ, φ̇)."""
 
+Content = Literal["values", "policy"]
+"""What a learner holds: the values of actions, or a map from states to actions (§3.3)."""
+
 
 class Architecture(Strict):
     """What learns, and from what (§4.4–4.6)."""
@@ -47,6 +50,12 @@ class Architecture(Strict):
     computes_with: ClassVar[tuple[str, ...]] = ()
     """Distributions whose version may change a run, besides those that every run computes with."""
 
+    holds: ClassVar[Content] = "values"
+    """What a learner holds."""
+
+    improves: ClassVar[Content] = "values"
+    """What an algorithm improves."""
+
     learns: ClassVar[bool] = True
     """Whether there is anything to learn, and so a step size α."""
 
@@ -55,6 +64,12 @@ class Architecture(Strict):
 
     def check_with(self, task: Task) -> None:
         """Raise ``ValueError`` if it does not go with a task; each part checks its own."""
+
+    def epsilon_in(self, study: float) -> float:
+        """The share of random actions in a study that has ``study``; a policy explores by itself."""
+        if self.holds == "policy":
+            return 0.0
+        return study if self.epsilon is None else self.epsilon
 
     def misfits(self, task: Task) -> Iterator[str]:
         """Why it does not go with a task, by each part that says so."""
@@ -85,6 +100,15 @@ class Architecture(Strict):
                 f"`coding: {self.coding}` gives {MEANING[self.gives]}; {self.learner} takes "
                 f"{' or '.join(MEANING[features] for features in self.takes)}"
             )
+        if self.holds != self.improves:
+            raise ValueError(
+                f"`method: {self.method}` improves {HELD[self.improves]}; {self.learner} holds "
+                f"{HELD[self.holds]}"
+            )
+        if self.holds == "policy" and self.epsilon:
+            raise ValueError(
+                f"{self.learner} draws its actions by probabilities of its own; leave `epsilon` out"
+            )
         for part in type(self).__mro__:
             if "check" in vars(part):
                 part.check(self)  # type: ignore[attr-defined]
@@ -96,6 +120,8 @@ MEANING: dict[Features, str] = {
     "tiles": "several tiles at once",
     "state": "the state itself",
 }
+
+HELD: dict[Content, str] = {"values": "values of actions", "policy": "a policy"}
 
 
 class NamedArchitecture(Architecture):

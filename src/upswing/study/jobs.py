@@ -27,6 +27,10 @@ FROM_PANELS = "upswing.figures.from_panels"
 """What draws figures that are declared, loaded by name so that no other figure depends on it."""
 
 
+KINDS = ("balancing", "full-control")
+"""The thesis's tasks. A figure of the thesis asks them for the grid of its cells."""
+
+
 def sweep(swept: "Sweep", study: Study) -> Code:
     """The code that runs a sweep's cells under other readings."""
     cells = Matrix(study).cells
@@ -46,7 +50,7 @@ def search(study: Study) -> Code:
 def bound() -> Code:
     """The code of the bound; it follows policies on both tasks, and trains tables to begin with."""
     table = architecture_of(learner="table")
-    return learning("upswing.optimal.bound", used=product([table], ["balancing", "full-control"]))
+    return learning("upswing.optimal.bound", used=product([table], KINDS))
 
 
 OF_ITS_PENDULUM = ("upswing.optimal.body", "upswing.runs.study_file")
@@ -69,7 +73,8 @@ def figure(figure: str | OwnFigure) -> Code | OwnCode:
     """The code that draws a figure: of the project, by its name, or of a study's own."""
     drawing = ("matplotlib", "scipy")
     if isinstance(figure, str):
-        return Code(("upswing.figures", module_of("figures", figure)), drawing)
+        tasks = (module_of("tasks", kind) for kind in KINDS)
+        return Code(("upswing.figures", module_of("figures", figure), *tasks), drawing)
     if isinstance(figure, FigureFile):
         return OwnCode(Path(figure.file), ("upswing.figures", "upswing.figures.panels"), drawing)
     return Code(("upswing.figures", FROM_PANELS), drawing)

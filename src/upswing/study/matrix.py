@@ -82,7 +82,7 @@ class Matrix:
     def spec(self, task: str, name: str, alpha: float | None, seeds: tuple[int, ...]) -> Spec:
         """The specification of a task, an architecture and a step size, for some seeds."""
         study, architecture = self.study, self.study.architectures[name]
-        epsilon, discount = architecture.epsilon, architecture.discount
+        discount = architecture.discount
         learning = {key: value for key, value in architecture if key not in HOW_SHOWN}
         return Spec(
             task=task_named(task, **dict(study.tasks[task])),
@@ -91,7 +91,7 @@ class Matrix:
             ),
             alpha=alpha,
             seeds=tuple(sorted(seeds)),
-            epsilon=study.epsilon if epsilon is None else epsilon,
+            epsilon=architecture.epsilon_in(study.epsilon),
             discount=study.discount if discount is None else discount,
             readings=study.readings,
         )

@@ -5,7 +5,7 @@ import pytest
 
 from tests.helpers import assert_same, beyond_spec, run
 from tests.oracles import textbook
-from upswing.agents.algorithms import monte_carlo
+from upswing.agents.returns import NEGLIGIBLE
 
 KINDS = ["balancing", "full-control"]
 HORIZON = 39  # 0.7³⁹ is the first power of the discount below a millionth
@@ -44,7 +44,7 @@ def test_monte_carlo(kind, alpha):
     spec = beyond_spec(kind, alpha=alpha, method="monte-carlo")
     expected = textbook.monte_carlo(kind, 3, spec.task.steps, alpha, HORIZON)
     assert_as_in_the_textbook(spec, 3, expected)
-    assert 0.7**HORIZON < monte_carlo.NEGLIGIBLE < 0.7 ** (HORIZON - 1)
+    assert 0.7**HORIZON < NEGLIGIBLE < 0.7 ** (HORIZON - 1)
 
 
 @pytest.mark.parametrize("kind", KINDS)

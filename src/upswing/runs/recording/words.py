@@ -73,13 +73,20 @@ def about(
 
 {colours(spec)}
 
-**{architecture.name}**: {architecture.in_words()}. Of 100 actions {100 * spec.epsilon:g} are random; the
+**{architecture.name}**: {architecture.in_words()}. {_of_choosing(spec)}; the
 discount γ is {spec.discount:g}.
 
 | | |
 | --- | --- |
 {numbers}
 """
+
+
+def _of_choosing(spec: Spec) -> str:
+    """How actions are chosen."""
+    if spec.architecture.holds == "policy":
+        return "Actions are drawn by the probabilities that it has learned"
+    return f"Of 100 actions {100 * spec.epsilon:g} are random"
 
 
 def story(task: Task, measures: Measures, last_fall: int | None) -> str:
