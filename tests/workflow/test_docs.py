@@ -172,7 +172,7 @@ def test_every_subcommand_that_is_named_exists():
 
 
 def is_there(name: str) -> bool:
-    above = (ROOT, PACKAGE, PACKAGE / "agents")
+    above = (ROOT, ROOT / "config", PACKAGE, PACKAGE / "agents")
     found = any((folder / name).exists() for folder in above)
     return found or ("/" not in name and any(PACKAGE.rglob(name)))
 

@@ -29,7 +29,7 @@ OF_RESULTS = {
 OF_OTHER_STUDIES = {"smoke", "beyond"}
 OF_THE_CODE = {
     "help", "install", "test", "test-heavy", "test-all", "audit", "lint", "types", "format", "schema",
-    "docs", "lock",
+    "docs", "lock", "portability",
 }  # fmt: skip
 
 

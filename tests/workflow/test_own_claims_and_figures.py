@@ -12,7 +12,8 @@ MINE = "results/mine"
 
 
 def source(folder):
-    return {path: path.read_bytes() for path in (folder / "src").rglob("*") if path.is_file()}
+    files = (path for path in (folder / "src").rglob("*") if path.is_file())
+    return {path: path.read_bytes() for path in files if "__pycache__" not in path.parts}
 
 
 @pytest.fixture(scope="module")
@@ -23,8 +24,7 @@ def claimed(tmp_path_factory):
     before = source(folder)
     assert new == []
     study.jobs()
-    compiled = {path for path in source(folder) if "__pycache__" in path.parts}
-    return study, before, {k: v for k, v in source(folder).items() if k not in compiled}
+    return study, before, source(folder)
 
 
 def test_an_own_claim_and_an_own_figure_touch_no_file_below_src(claimed):

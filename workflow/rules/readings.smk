@@ -55,7 +55,7 @@ rule readings:
     input:
         FILES.tiles,
         lambda wildcards: (
-            FILES.judged_from(workflow.dag_settings.targets)
+            FILES.judged_from(targets())
             if workflow.is_main_process
             else FILES.swept
         ),

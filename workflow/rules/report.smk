@@ -25,6 +25,6 @@ rule report:
     params:
         **TOLD,
         code=jobs.page(FILES.project_figures).fingerprint,
-        swept=lambda wildcards: FILES.shown_as_of(workflow.dag_settings.targets),
+        swept=lambda wildcards: FILES.shown_as_of(targets()),
     shell:
         "{params.upswing:q} report {params.results:q} --templates {params.templates:q} > {log:q} 2>&1"

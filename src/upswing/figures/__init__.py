@@ -131,6 +131,8 @@ def draw(name: str, results: "Results", claims: "Mapping[str, Claim] | None" = N
     Raises:
         BadInput: there is no such figure, or its file is not as it should be.
     """
+    if name.isdigit():  # a study's own figures have names
+        name = named(name)
     own = own_of(results.study)
     name = named(name, [*FIGURES, *own])
     from upswing.figures.style import save

@@ -272,7 +272,7 @@ class Targets(TargetsOfSweeps):
 
         Of a job one file is named, which stays the same where its block has fewer seeds than before.
         """
-        return checksum_of(str({cell: self.matrix.cells[cell].seeds for cell in cells}))
+        return checksum_of(str({cell: self.matrix.cells[cell].seeds for cell in sorted(cells)}))
 
     def of_page(self, asked: Collection[str]) -> list[str]:
         """What the page is made from, besides its templates.

@@ -96,7 +96,7 @@ def test_the_first_tiling_is_the_grid_of_the_thesis(angle, speed):
     assert divmod(first, 21) == divmod(tile, 20)
 
 
-@pytest.mark.parametrize("name", [name for name in parts("features") if name != "continuous"])
+@pytest.mark.parametrize("name", [n for n in parts("features") if n not in ("boxes", "continuous")])
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_last_angle_below_the_limit_lies_in_the_last_part_and_the_limit_begins_the_first(
     name, kind

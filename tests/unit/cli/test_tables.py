@@ -182,7 +182,7 @@ def test_a_comparison_and_a_diagnosis_are_wrapped_in_a_terminal_only(room, capsy
     finding = Finding(
         Path(f"results/{LONG}/seed-0.trajectory.parquet"), "is not what was written", command
     )
-    print_diagnosis(Diagnosis(12, 99, [finding], [Path("orphan")], ["a note"]))
+    print_diagnosis(Diagnosis(12, 99, [finding], [Path("orphan")], ["a note"]), Path("results"))
     said = capsys.readouterr().out
     assert command in said  # to be copied, however wide the terminal
     assert fits(said.replace(command, ""), room)

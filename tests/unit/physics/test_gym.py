@@ -222,13 +222,14 @@ def test_a_window_shows_it_in_real_time(monkeypatch):
         make("balancing", render_mode="human")
     # A backend without a screen, called interactive: all but the window itself.
     monkeypatch.setattr(window, "_with_windows", lambda: ["agg"])
+    others = set(plt.get_fignums())
     env = make("full-control", render_mode="human")
     env.reset(options={"angle": 0.0})
     begin = monotonic()
     for _ in range(40):
         env.step(1)
     assert 0.1 < monotonic() - begin < 2.0  # 40 steps of 5 ms, from the first picture on
-    (number,) = plt.get_fignums()
+    (number,) = set(plt.get_fignums()) - others
     (shown,) = plt.figure(number).axes[0].get_images()
     assert np.array_equal(
         shown.get_array()[:, :, 0] == 255,

@@ -132,10 +132,10 @@ def test_a_name_of_the_projects_figures_is_not_taken(folder):
 
 
 def test_a_study_is_judged_by_its_own_claims_and_by_no_other(folder):
-    sweeps = ROOT / "config/readings.yaml"
+    thesis, sweeps = ROOT / "config/claims.yaml", ROOT / "config/readings.yaml"
     path = study(folder, claims="own/claims.yaml")
-    assert list(asked([path], {}, sweeps).claims) == ["S1"]
-    assert len(asked([study(folder)], {}, sweeps).claims) == 16  # those of the thesis
+    assert list(asked([path], {}, thesis, sweeps).claims) == ["S1"]
+    assert len(asked([study(folder)], {}, thesis, sweeps).claims) == 16  # those of the thesis
 
 
 def test_checking_names_what_is_wrong_with_own_claims(folder):

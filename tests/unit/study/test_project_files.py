@@ -34,7 +34,7 @@ def test_the_links_lead_to_the_projects_own_files():
 
 
 def test_the_command_line_looks_where_the_workflow_does():
-    for name in ("CONFIG", "CLAIMS", "SWEEPS", "TEMPLATES"):
+    for name in ("CONFIG", "SWEEPS", "TEMPLATES"):
         assert getattr(options, name) == getattr(project_files, name)
 
 
