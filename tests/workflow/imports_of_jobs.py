@@ -126,6 +126,7 @@ def jobs(told: dict[str, object], readings: Path, claims: Path, templates: Path)
     if told["changes"]:
         yield "bound", subcommand("bound", results, compiled=True)
         yield "settling", subcommand("settling", results, compiled=True)
+        yield "prediction", subcommand("prediction", results, compiled=True)
         yield "changes", subcommand("changes", results)
     if told["search"]:
         yield "shortest", subcommand("shortest", str(told["study"]), "--results", results)
@@ -195,6 +196,12 @@ def _followed_briefly(declared: Callable[..., type]) -> Callable[..., type]:
 SMALL = {
     "upswing.study.declared": {"declared": lambda module: _followed_briefly(module.declared)},
     "upswing.optimal.settling": {"GRID": lambda module: module.Grid(36, 21)},
+    "upswing.optimal.prediction": {
+        "GRID": lambda module: module.Grid(72, 81),
+        "MET": 3_000,
+        "CHOOSING": range(1),
+        "SHOWN": range(1, 2),
+    },
     "upswing.optimal.bound": {"GRIDS": lambda module: (module.Grid(36, 21), module.Grid(72, 81))},
     "upswing.optimal.tile_rows": {
         "BUDGET": 1,

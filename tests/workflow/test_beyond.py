@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from tests.paths import ROOT
+from tests.predicted import made_up_prediction
 from tests.workflow.small_study import Study
 from upswing.analysis.ablation import EVERY_TIME
 from upswing.analysis.search import chosen, upright_shares
@@ -93,6 +94,7 @@ def made_up_bound(folder):
     actions = {f"action_{discount}": np.arange(len(angles)) % 3 for discount in (0.7, 0.97)}
     write_table(folder / MAPS, pd.DataFrame({**maps, **actions}))
     write_table(folder / SETTLING, pd.DataFrame(settle(Pendulum(), Grid(24, 21), 0.97)))
+    made_up_prediction(folder)
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +110,7 @@ def study(tmp_path_factory):
 def test_every_part_of_the_chapter_has_its_job(study):
     assert study.ran == {
         "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
-        "changes": 1, "shortest": 1, "figure": 6, "viewer": 1, "report": 1,
+        "changes": 1, "shortest": 1, "figure": 7, "viewer": 1, "report": 1,
     }  # fmt: skip
     assert study.jobs() == {}
 

@@ -30,9 +30,13 @@ CODE_OF_RULE = {
     "report": jobs.page(FIGURES),
     "bound": jobs.bound(),
     "settling": jobs.SETTLING,
+    "prediction": jobs.PREDICTION,
     "tiles": jobs.tiles(),
     "finalists": jobs.FINALISTS,
 }
+
+NAMING = ("train", "sweep", "shortest", "bound", "settling", "prediction")
+"""Jobs of which the answer names modules that no ``import`` statement shows."""
 
 
 def small(name, folder):
@@ -128,7 +132,8 @@ def test_every_kind_of_job_was_run(ran):
     expected = {"study", "train", "tables", "verdicts", "figure", "comparison", "viewer", "report"}
     expected |= {"history"}
     of_the_thesis = {"sweep", "readings", "finalists", "tiles"}
-    expected |= {"bound", "settling", "changes", "shortest"} if study.search else of_the_thesis
+    beyond = {"bound", "settling", "prediction", "changes", "shortest"}
+    expected |= beyond if study.search else of_the_thesis
     assert rules == expected
     assert {f"train {cell}" for cell in Matrix(study).cells} <= imported.keys()
     assert {f"sweep {name}" for name in sweeps} <= imported.keys()
@@ -148,7 +153,7 @@ def test_a_module_taken_out_of_the_answer_is_noticed(ran):
     """What no ``import`` statement shows is in the answer only because it is named there."""
     study, sweeps, imported = ran
     for job, modules in imported.items():
-        if job.partition(" ")[0] not in ("train", "sweep", "shortest", "bound", "settling"):
+        if job.partition(" ")[0] not in NAMING:
             continue
         code = code_of(job, study, sweeps)
         for left_out in code.entries[1:]:

@@ -76,6 +76,14 @@ def study(tmp_path_factory):
     sweeps = {name: {**sweep, "how": "pairs", "seeds": 1} for name, sweep in READINGS.items()}
     (study.folder / "config/readings.yaml").write_text(yaml.safe_dump(sweeps), "utf-8")
     study.edit("src/upswing/optimal/settling.py", "Grid(180, 201)", "Grid(36, 21)")
+    study.edit("src/upswing/optimal/prediction.py", "Grid(720, 801)", "Grid(72, 81)")
+    study.edit("src/upswing/optimal/prediction.py", "42_000, 3_000_000", "42_000, 3_000")
+    study.edit(
+        "src/upswing/optimal/prediction.py", "range(43_000, 43_100)", "range(43_000, 43_001)"
+    )
+    study.edit(
+        "src/upswing/optimal/prediction.py", "range(40_000, 40_020)", "range(40_000, 40_001)"
+    )
     study.edit("src/upswing/optimal/bound.py", "(Grid(180, 201), Grid(360, 401), Grid(720, 801))", "(Grid(36, 21), Grid(72, 81))")  # fmt: skip
     study.edit("src/upswing/optimal/tile_rows.py", "BUDGET = 600", "BUDGET = 2")
     study.edit("src/upswing/optimal/tile_rows.py", "FURTHER = 3_000", "FURTHER = 2")

@@ -43,6 +43,27 @@ rule settling:
         "{params.upswing:q} settling {params.results:q} --study {params.asked:q} > {log:q} 2>&1"
 
 
+rule prediction:
+    input:
+        no_file,
+    output:
+        f"{RESULTS}/{PREDICTION}",
+        f"{RESULTS}/{PREDICTION_LIMITS}",
+    log:
+        f"{RESULTS}/logs/prediction.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/prediction.tsv"
+    resources:
+        mem_mb=memory("prediction"),
+        runtime=minutes("prediction"),
+    params:
+        **TOLD,
+        pendulum=lambda wildcards: pendulum_of_bound(STUDY).model_dump_json(),
+        code=jobs.PREDICTION.fingerprint,
+    shell:
+        "{params.upswing:q} prediction {params.results:q} --study {params.asked:q} > {log:q} 2>&1"
+
+
 rule changes:
     input:
         f"{RESULTS}/study.json",

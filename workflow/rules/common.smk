@@ -23,6 +23,8 @@ from upswing.study.paths import (
     CHANGES,
     CHOSEN,
     MAPS,
+    PREDICTION,
+    PREDICTION_LIMITS,
     SETTLING,
     SHORTEST,
     TILES,

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 NAMES = (
     "overview", "step-sizes", "learning-curves",
     "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11",
-    "bound", "settling", "changes",
+    "bound", "settling", "prediction", "changes",
 )  # fmt: skip
 """The figures of the thesis and of its chapters, in their order."""
 

@@ -31,6 +31,8 @@ from upswing.study.paths import (
     EVIDENCE_CSV,
     MAPS,
     PAGE,
+    PREDICTION,
+    PREDICTION_LIMITS,
     RUNS,
     RUNS_CSV,
     SETTLING,
@@ -51,9 +53,13 @@ PICTURE = ("svg", "png", "json")
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
 CHAPTER = (
-    CHANGES, BOUND, CHOSEN, *(figure(name, "svg") for name in ("bound", "settling", "changes")),
+    CHANGES, BOUND, CHOSEN,
+    *(figure(name, "svg") for name in ("bound", "settling", "prediction", "changes")),
 )  # fmt: skip
 """What the page shows of the chapter beyond the thesis, once that has been run."""
+
+OF_THE_CHAPTER = (BOUND, MAPS, SETTLING, PREDICTION, PREDICTION_LIMITS, CHANGES)
+"""The tables of a study of changes."""
 
 TEMPLATES = (
     "*.j2", "*.css", "*.js", "*.yaml", "*.json", "exploratory.csv", "parts/*", "drawings/*",
@@ -112,7 +118,7 @@ class Targets(TargetsOfSweeps):
     def beyond(self) -> list[str]:
         """The tables of a study of changes; none of another."""
         search = (SHORTEST, CHOSEN) if self.study.search else ()
-        return self._below(BOUND, MAPS, SETTLING, CHANGES, *search) if self.changes else []
+        return self._below(*OF_THE_CHAPTER, *search) if self.changes else []
 
     @cached_property
     def page(self) -> list[str]:

@@ -53,7 +53,14 @@ def bound() -> Code:
     return learning("upswing.optimal.bound", used=product([table], KINDS))
 
 
-SETTLING = Code(("upswing.optimal.settling",), COMPUTING_PACKAGES)
+OF_ITS_PENDULUM = ("upswing.optimal.body", "upswing.runs.study_file")
+"""What reads a study and tells its pendulum, for jobs that need no more of it."""
+
+SETTLING = Code(("upswing.optimal.settling", *OF_ITS_PENDULUM), COMPUTING_PACKAGES)
+PREDICTION = Code(
+    ("upswing.optimal.prediction", *OF_ITS_PENDULUM, module_of("tasks", "balancing")),
+    COMPUTING_PACKAGES,
+)
 
 
 def tiles() -> Code:

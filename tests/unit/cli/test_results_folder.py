@@ -23,7 +23,7 @@ READERS = [
 ]  # fmt: skip
 """What takes it in both ways, with the arguments that come first."""
 
-MAKERS = ["bound", "settling", "tiles"]
+MAKERS = ["bound", "settling", "prediction", "tiles"]
 """What takes it in both ways, too, and needs nothing in it."""
 
 

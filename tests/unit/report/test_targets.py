@@ -84,7 +84,9 @@ def test_the_page_shows_the_chapter_of_the_folder_below_once_it_is_there(tmp_pat
 
 
 def test_the_page_of_changes_takes_their_tables_before_they_are_there(tmp_path):
-    tables = {f"tables/{name}.parquet" for name in ("bound", "bound_maps", "settling", "changes")}
+    predicted = ("prediction", "prediction_limits")
+    names = ("bound", "bound_maps", "settling", *predicted, "changes")
+    tables = {f"tables/{name}.parquet" for name in names}
     files = of(tmp_path, **titled())
     assert below(tmp_path, files.beyond) == tables <= below(tmp_path, files.of_page([]))
     assert below(tmp_path, files.beyond) <= below(tmp_path, files.everything)

@@ -157,6 +157,18 @@ def settling(positional: Positional = None, results: Named = None, study: AskedS
     write_settling(folder, body_of_study(_asked_or_kept(study, folder)))
 
 
+@panel.subcommand("prediction", cls=Job)
+def prediction(
+    positional: Positional = None, results: Named = None, study: AskedStudy = ""
+) -> None:
+    """Let TD and Monte Carlo predict what random actions are worth (tables/prediction.parquet)."""
+    from upswing.optimal.body import body_of_study
+    from upswing.optimal.prediction import write_prediction
+
+    folder = results_folder(results, positional)
+    write_prediction(folder, body_of_study(_asked_or_kept(study, folder)))
+
+
 def _asked_or_kept(text: str, folder: Path) -> "Study | None":
     """The study that is given, or that of the folder; None where there is neither."""
     from upswing.runs.study_file import read_study
