@@ -85,7 +85,7 @@ def test_following_is_what_the_evaluation_does(stored, name):
         setting,
         rule=setting.rule._replace(step_size=0.0, epsilon=0.0 if own is None else own),
         state=State(0.3, 0.0, 0.0, 0.0),
-        algorithm=new_algorithm(spec, setting.encoder, decisions),
+        algorithm=new_algorithm(spec, setting.encoder, setting.learner, decisions),
         actions=stream,
         starts=stream,
     )
