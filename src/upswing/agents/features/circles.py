@@ -19,8 +19,8 @@ class Options(architecture.Architecture):
     gives: ClassVar[architecture.Features] = "activations"
     radius: Annotated[float, Field(ge=0.75, le=10)] = Field(
         default=1.5,
-        description="Radius of the circles in distances between two centres; below 0.71 some states "
-        "would lie in none.",
+        description="Radius of the circles, as a multiple of the distance between two centres; below "
+        "0.71 some states would lie in none.",
     )
 
 
