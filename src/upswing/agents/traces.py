@@ -1,7 +1,8 @@
 """Eligibility traces over weights (§3.2.2): how much each of them took part in what was done lately.
 
 A trace is a number for each weight, so the traces of a learner are kept in a named tuple of its own
-kind. A learner that can be learned by traces gives a body to both functions here.
+kind. A learner that can be learned by traces gives a body to the first two functions here, and to the
+third if it keeps anything that was computed from its weights.
 """
 
 from typing import Any, NamedTuple
@@ -25,13 +26,20 @@ def _weights(learner: Any) -> tuple[Array, ...]:
     raise TypeError(f"{type(learner)} has no traces")
 
 
+def _forget_kept(learner: Any) -> None:
+    """Note that the weights were moved from outside."""
+
+
 _add_gradient_by_type = ByType(_add_gradient)
 _weights_by_type = ByType(_weights)
+_forget_kept_by_type = ByType(_forget_kept)
 
 add_gradient = _add_gradient_by_type.call
 weights = _weights_by_type.call
+forget_kept = _forget_kept_by_type.call
 add_gradient_of = _add_gradient_by_type.register
 weights_of = _weights_by_type.register
+forget_kept_of = _forget_kept_by_type.register
 
 
 def nothing_like(learner: NamedTuple) -> NamedTuple:

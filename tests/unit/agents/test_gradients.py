@@ -7,11 +7,13 @@ from pydantic import ValidationError
 
 from tests.helpers import assert_same, beyond_spec, run
 from tests.oracles import gradients
+from tests.oracles.textbook import World
 from upswing.agents import traces
 from upswing.agents.features import Place, activate, locate
 from upswing.agents.features.continuous import Continuous
 from upswing.agents.learners import update, values
 from upswing.agents.learners.table import Table
+from upswing.physics.environment import State, empty_trajectory
 from upswing.physics.jit import compiled
 from upswing.runs.simulation import prepare
 from upswing.study.architecture import architecture_of
@@ -29,6 +31,7 @@ LEARNERS = {
         "learner": "radial-network", "coding": "continuous", "hidden": (7,), "width": 0.4, "rate": 0.5,
     },
     "networks": {"learner": "networks", "coding": "continuous", "hidden": (7,)},
+    "networks on tiles": {"learner": "networks", "hidden": (7,)},
 }  # fmt: skip
 
 
@@ -47,11 +50,16 @@ def torchs(spec, alpha):
     named = dict(networks.named_parameters())
     if spec.architecture.learner == "networks":
         groups = [{"params": list(named.values()), "lr": alpha * spec.readings.learning_rate}]
-        return (
-            lambda *state: networks(0, torch.from_numpy(gradients.inputs(*state))[None])[0],
-            groups,
-            named,
-        )
+        tiles = networks.weights[0].shape[2]
+        one_hot, world = torch.eye(tiles, dtype=torch.float64), World(kind, 0)
+
+        def forward(*state):
+            told = torch.from_numpy(gradients.inputs(*state))
+            if spec.architecture.gives == "tile":
+                told = one_hot[world.tile(State(*state, 0.0, 0.0))]
+            return networks(0, told[None])[0]
+
+        return forward, groups, named
     inner = [named["centres"], named["inverse_widths"]]
     groups = [
         {"params": inner, "lr": alpha * spec.architecture.rate},
@@ -85,7 +93,12 @@ def test_q_learning_goes_along_the_gradients_of_torch(kind, options):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(
-    ("name", "biases"), [*((name, "none") for name in LEARNERS), ("networks", "both")]
+    ("name", "biases"),
+    [
+        *((name, "none") for name in LEARNERS),
+        ("networks", "both"),
+        ("networks on tiles", "both"),
+    ],
 )
 def test_traces_are_of_the_gradients_of_torch(kind, name, biases):
     options = LEARNERS[name]
@@ -148,18 +161,12 @@ def test_what_is_learned_of_a_state_spreads_to_those_around_it():
 def test_outside_the_loop_values_are_the_same(options):
     spec = beyond_spec(alpha=0.1, steps=500, **options)
     setting = prepare(spec, 1)
-    setting.advance(_empty(500), 0, 500)
+    setting.advance(empty_trajectory(500), 0, 500)
     states = np.random.default_rng(1).uniform(-1, 1, (20, 2)) * (3, 18)
     places = [locate(setting.encoder, *map(float, state)) for state in states]
     inside = [values(setting.learner.stepped, place) for place in places]
     np.testing.assert_allclose(setting.learner.action_values(places), inside, rtol=1e-9, atol=1e-12)
     assert np.ptp(inside) > 0.1
-
-
-def _empty(steps):
-    from upswing.physics.environment import empty_trajectory
-
-    return empty_trajectory(steps)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -227,8 +234,8 @@ def test_what_has_no_gradient_or_no_features_says_so():
         ({"learner": "linear", "coding": "circles", "radius": 0.5}, "greater than or equal to 0.75"),
         ({"learner": "table", "method": "sarsa-lambda", "trace": 0.5}, "write `method: q-lambda`"),
         (
-            {"learner": "networks", "hidden": (5,), "method": "sarsa-lambda", "trace": 0.5},
-            "write `method: q-lambda`",
+            {"learner": "networks", "hidden": (5, 5), "method": "sarsa-lambda", "trace": 0.5},
+            "go with networks of one hidden layer",
         ),
         (
             {"learner": "radial-network", "coding": "continuous", "hidden": (5, 5)},

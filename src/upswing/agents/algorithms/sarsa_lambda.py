@@ -20,7 +20,7 @@ from upswing.agents.algorithms import Design, Step, after_choice_of, learn_from_
 from upswing.agents.features import locate
 from upswing.agents.learners import Array, values
 from upswing.agents.policy import Rule
-from upswing.agents.traces import add_gradient, nothing_like, weights
+from upswing.agents.traces import add_gradient, forget_kept, nothing_like, weights
 from upswing.physics.jit import compiled
 from upswing.study import architecture
 from upswing.study.values import Share
@@ -37,11 +37,13 @@ class Options(architecture.Architecture):
         """Its learner has weights that a state's value can be derived by."""
         if self.learner == "dqn":
             raise ValueError("dqn has an algorithm of its own; leave `method` out")
-        if self.gives in ("tile", "tiles"):
+        if self.learner != "networks" and self.gives in ("tile", "tiles"):
             raise ValueError(
-                "traces over weights go with networks on the state, or with a linear function; on "
-                "tiles write `method: q-lambda`"
+                "traces over weights go with networks, or with a linear function; for "
+                f"{self.learner} on tiles write `method: q-lambda`"
             )
+        if self.learner == "networks" and len(getattr(self, "hidden", ())) > 1:
+            raise ValueError("traces over weights go with networks of one hidden layer")
 
 
 class SarsaLambda(NamedTuple):
@@ -59,12 +61,13 @@ class SarsaLambda(NamedTuple):
 
 
 @compiled
-def follow(algorithm: SarsaLambda, error: float) -> None:
+def follow(algorithm: SarsaLambda, learner: Any, error: float) -> None:
     """Move every weight by its share of the error signal α·δ."""
     for part in range(len(algorithm.weights)):
         w, e = algorithm.weights[part], algorithm.eligibility[part]
         for i in range(w.shape[0]):
             w[i] += error * e[i]
+    forget_kept(learner)
 
 
 @compiled
@@ -95,7 +98,7 @@ def _after_choice(
     td_error = algorithm.reward[0] + rule.discount * next_value - values(learner, before)[taken]
     fade(algorithm, rule.discount * algorithm.trace)
     add_gradient(learner, algorithm.traces, before, taken, 1.0)
-    follow(algorithm, rule.step_size * td_error)
+    follow(algorithm, learner, rule.step_size * td_error)
     td_errors[when] = td_error / rule.reward_scale
     algorithm.step[0] = NOTHING
 
@@ -111,7 +114,7 @@ def _learn_from(
         td_error = step.reward + rule.discount * next_value - q
         fade(algorithm, rule.discount * algorithm.trace)
         add_gradient(learner, algorithm.traces, step.place, step.action, 1.0)
-        follow(algorithm, rule.step_size * td_error)
+        follow(algorithm, learner, rule.step_size * td_error)
         fade(algorithm, 0.0)
         return td_error
     algorithm.step[0], algorithm.action[0], algorithm.reward[0] = step.t, step.action, step.reward
