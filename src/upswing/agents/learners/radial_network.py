@@ -41,7 +41,7 @@ class Options(architecture.Architecture):
         description="The first σ of the units, where sin φ, cos φ and φ̇ / 20 reach from −1 to 1.",
     )
     rate: NotNegative = Field(
-        default=1.0,
+        default=0.1,
         description="The step size of centres and widths, as a multiple of α; 0 keeps them fixed.",
     )
 
