@@ -29,7 +29,7 @@ def evaluate(setting: Setting, spec: Spec, seed: int) -> Greedy:
             setting,
             rule=rule,
             state=State(float(angle), 0.0, 0.0, 0.0),
-            algorithm=new_algorithm(spec, setting.encoder, decisions),
+            algorithm=new_algorithm(spec, setting.encoder, setting.learner, decisions),
             actions=stream,
             starts=stream,
         )

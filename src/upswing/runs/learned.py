@@ -96,7 +96,7 @@ class Learned:
             setting,
             rule=_frozen(setting),
             state=State(float(angle), float(angular_velocity), 0.0, 0.0),
-            algorithm=new_algorithm(self.spec, setting.encoder, decisions),
+            algorithm=new_algorithm(self.spec, setting.encoder, setting.learner, decisions),
             actions=stream,
             starts=stream,
         )

@@ -98,18 +98,20 @@ def prepare(spec: Spec, seed: int) -> Setting:
         encoder=encoder,
         rule=rule,
         learner=learner,
-        algorithm=new_algorithm(spec, encoder, decisions),
+        algorithm=new_algorithm(spec, encoder, learner, decisions),
         state=State(*tasks.start(task, starts), 0.0, 0.0),
         actions=actions,
         starts=starts,
     )
 
 
-def new_algorithm(spec: Spec, encoder: Encoder, draws: np.random.Generator) -> NamedTuple:
-    """The algorithm of ``spec`` with nothing remembered."""
+def new_algorithm(
+    spec: Spec, encoder: Encoder, learner: Learner, draws: np.random.Generator
+) -> NamedTuple:
+    """The algorithm of ``spec`` with nothing remembered, to improve ``learner``."""
     options = spec.architecture.model_dump()
     actions = len(spec.task.pendulum.accelerations)
     design = algorithms.Design(
-        encoder, float(spec.discount), options, spec.readings, draws, actions
+        encoder, float(spec.discount), options, spec.readings, draws, actions, learner.stepped
     )
     return algorithms.create(spec.architecture.method, design)

@@ -13,8 +13,11 @@ from upswing.study.names import Name
 from upswing.study.task import Task
 from upswing.study.values import Discount, Share, Strict
 
-Features = Literal["tile", "tiles", "state"]
-"""What a feature encoder says of a state: the tile that it lies in, several that overlap, or (φ, φ̇)."""
+Features = Literal["tile", "tiles", "activations", "state"]
+"""What a feature encoder says of a state.
+
+The tile that it lies in, several that overlap, a number for each feature, or (φ, φ̇) as it is.
+"""
 
 Content = Literal["values", "policy"]
 """What a learner holds: the values of actions, or a map from states to actions (§3.3)."""
@@ -41,7 +44,7 @@ class Architecture(Strict):
         default=None, description="Its own γ in place of the study's."
     )
 
-    takes: ClassVar[tuple[Features, ...]] = ("tile", "tiles", "state")
+    takes: ClassVar[tuple[Features, ...]] = ("tile", "tiles", "activations", "state")
     """What a learner can learn from."""
 
     gives: ClassVar[Features] = "tile"
@@ -118,6 +121,7 @@ class Architecture(Strict):
 MEANING: dict[Features, str] = {
     "tile": "one tile",
     "tiles": "several tiles at once",
+    "activations": "a number for each feature",
     "state": "the state itself",
 }
 

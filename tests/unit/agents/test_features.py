@@ -15,7 +15,8 @@ from upswing.study.loading import parts
 from upswing.study.readings import Readings
 
 KINDS = ["balancing", "full-control"]
-OPTIONS = {"modular": False, "cuts": 4, "entries": 160}
+OPTIONS = {"modular": False, "cuts": 4, "entries": 160, "width": 1.0, "radius": 1.5}
+NO_TILES = ("continuous", "radial", "circles")
 ANGLES = st.floats(-pi, pi, exclude_max=True)
 SPEEDS = st.floats(-40, 40)
 
@@ -25,7 +26,7 @@ def encoder(name, kind="full-control", **readings):
     return create(name, Plan(task, OPTIONS, Readings(**readings)))
 
 
-@pytest.mark.parametrize("name", [name for name in parts("features") if name != "continuous"])
+@pytest.mark.parametrize("name", [name for name in parts("features") if name not in NO_TILES])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("wrap", ["wrapped", "unbounded"])
 @given(angle=st.floats(-30, 30), speed=SPEEDS)
@@ -96,7 +97,9 @@ def test_the_first_tiling_is_the_grid_of_the_thesis(angle, speed):
     assert divmod(first, 21) == divmod(tile, 20)
 
 
-@pytest.mark.parametrize("name", [n for n in parts("features") if n not in ("boxes", "continuous")])
+@pytest.mark.parametrize(
+    "name", [name for name in parts("features") if name not in (*NO_TILES, "boxes")]
+)
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_last_angle_below_the_limit_lies_in_the_last_part_and_the_limit_begins_the_first(
     name, kind

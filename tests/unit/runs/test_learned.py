@@ -38,6 +38,10 @@ SPECS = {
     "decaying": beyond_spec(learner="decaying", halved_after=100.0, method="sarsa"),
     "networks of the state": beyond_spec(learner="networks", coding="continuous", hidden=(8,)),
     "action among the inputs": beyond_spec(learner="action-input", hidden=(8,)),
+    "bells": beyond_spec(learner="linear", coding="radial", width=0.8),
+    "bells that move": beyond_spec(
+        learner="radial-network", coding="continuous", hidden=(8,), method="sarsa-lambda", trace=0.7
+    ),
     "another pendulum": beyond_spec(task={"pendulum": OWN, "track": {"limit": 0.5}}),
     "five networks": beyond_spec(task={"pendulum": OWN}, learner="networks", hidden=(8,)),
     "dqn": beyond_spec(learner="dqn", coding="continuous", hidden=(16,), alpha=0.001),
@@ -86,7 +90,7 @@ def test_following_is_what_the_evaluation_does(stored, name):
         setting,
         rule=setting.rule._replace(step_size=0.0, epsilon=0.0 if own is None else own),
         state=State(0.3, 0.0, 0.0, 0.0),
-        algorithm=new_algorithm(spec, setting.encoder, decisions),
+        algorithm=new_algorithm(spec, setting.encoder, setting.learner, decisions),
         actions=stream,
         starts=stream,
     )

@@ -84,6 +84,7 @@ class Design(NamedTuple):
     readings: Readings
     draws: np.random.Generator  # the algorithm's own stream of random numbers
     actions: int = len(Pendulum().accelerations)
+    learner: Any = None  # as the loop steps it
 
 
 def create(name: str, design: Design) -> NamedTuple:

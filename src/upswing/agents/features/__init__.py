@@ -2,18 +2,24 @@
 
 An encoder is a named tuple of numbers or tuples: hashable, no arrays. Its file gives a body to
 ``locate``, which answers with a place, and has a function ``create`` that makes one for a run; options
-of its own, and what it gives a learner, stand there in a class ``Options``. Feature encoders are
-imported by name, as learners are.
+of its own, and what it gives a learner, stand there in a class ``Options``. One whose features are
+numbers locates a state as a ``Point`` and gives a body to ``activate`` as well, which a learner asks for
+them. Feature encoders are imported by name, as learners are.
 """
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from upswing.physics.jit import ByType
 from upswing.physics.tasks import Task
 from upswing.study.loading import load
 from upswing.study.physical import TileOptions
 from upswing.study.readings import Readings
+
+Array = NDArray[np.float64]
 
 
 class Place(NamedTuple):
@@ -24,7 +30,7 @@ class Place(NamedTuple):
 
 
 class Point(NamedTuple):
-    """A state as it is, for learners that need no tiles."""
+    """A state as it is, for learners that need no tiles and for features that are numbers."""
 
     module: int
     angle: float  # φ [rad]
@@ -51,7 +57,7 @@ class Encoder(Protocol):
 
     @property
     def tiles(self) -> int:
-        """How many tiles a module has in all; 0 where states are told as they are."""
+        """How many tiles, or features, a module has in all; 0 where states are told as they are."""
 
     @property
     def picture(self) -> Picture:
@@ -66,6 +72,16 @@ def _locate(encoder: Any, angle: float, angular_velocity: float) -> Any:
 _locate_by_type = ByType(_locate)
 locate = _locate_by_type.call
 locate_in = _locate_by_type.register
+
+
+def _activate(encoder: Any, point: Point, features: Array) -> None:
+    """Write into ``features``, (tiles,), how much each feature of the encoder answers to a state."""
+    raise TypeError(f"{type(encoder)} has no features that are numbers")
+
+
+_activate_by_type = ByType(_activate)
+activate = _activate_by_type.call
+activate_in = _activate_by_type.register
 
 
 class Plan(NamedTuple):

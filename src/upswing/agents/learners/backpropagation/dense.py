@@ -13,6 +13,7 @@ from upswing.agents.features import Point
 from upswing.agents.learners import Array, update_of, values_of
 from upswing.agents.learners.backpropagation.logistic import logistic
 from upswing.agents.policy import Q
+from upswing.agents.traces import add_gradient, add_gradient_of, weights_of
 from upswing.physics.elementary import sine_and_cosine
 from upswing.physics.jit import inlined, with_item
 
@@ -90,19 +91,34 @@ def _values(net: Dense, point: Point) -> Q:
     return q
 
 
-@update_of(Dense)
-def _update(net: Dense, point: Point, action: int, error: float) -> None:
+@add_gradient_of(Dense)
+def _add_gradient(net: Dense, into: Dense, point: Point, action: int, share: float) -> None:
     x, module = inputs(point), point.module
-    w, b = net.input_weights[module, action], net.hidden_bias[module, action]
-    v = net.output_weights[module, action]
-    change = net.learning_rate * error
+    w, b = into.input_weights[module, action], into.hidden_bias[module, action]
+    v, into_v = net.output_weights[module, action], into.output_weights[module, action]
+    change = net.learning_rate * share
     for j in range(v.shape[0]):
         h = activation(net, module, action, j, x)
         hidden_change = change * v[j] * h * (1.0 - h)
-        v[j] += change * h
+        into_v[j] += change * h
         for i in range(INPUTS):
             w[i, j] += hidden_change * x[i]
         if net.learns_hidden_bias:
             b[j] += hidden_change
     if net.learns_output_bias:
-        net.output_bias[module, action] += change
+        into.output_bias[module, action] += change
+
+
+@update_of(Dense)
+def _update(net: Dense, point: Point, action: int, error: float) -> None:
+    add_gradient(net, net, point, action, error)
+
+
+@weights_of(Dense)
+def _weights(net: Dense) -> tuple[Array, ...]:
+    return (
+        net.input_weights.reshape(-1),
+        net.hidden_bias.reshape(-1),
+        net.output_weights.reshape(-1),
+        net.output_bias.reshape(-1),
+    )
