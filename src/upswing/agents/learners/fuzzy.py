@@ -65,7 +65,11 @@ def degree(peaks: Array, term: int, x: float) -> float:
     Beyond the outermost peaks the outermost terms stay wholly true.
     """
     if x < peaks[term]:
-        return 1.0 if term == 0 else max(0.0, 1.0 - (peaks[term] - x) / (peaks[term] - peaks[term - 1]))
+        return (
+            1.0
+            if term == 0
+            else max(0.0, 1.0 - (peaks[term] - x) / (peaks[term] - peaks[term - 1]))
+        )
     if x > peaks[term] and term < len(peaks) - 1:
         return max(0.0, 1.0 - (x - peaks[term]) / (peaks[term + 1] - peaks[term]))
     return 1.0
@@ -73,7 +77,7 @@ def degree(peaks: Array, term: int, x: float) -> float:
 
 @compiled
 def surface(fuzzy: Fuzzy, angle: float, angular_velocity: float) -> float:
-    """The acceleration that it wants [m/s²]: the rules' mean, each weighed by how true its premise is."""
+    """The acceleration that it wants [m/s²]: the rules' mean, weighed by how true each premise is."""
     total, weight = 0.0, 0.0
     for i in range(len(fuzzy.angles)):
         for j in range(len(fuzzy.velocities)):

@@ -10,7 +10,7 @@ differ from processor to processor.
 """
 
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 import torch
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from torch import Tensor
 
-from upswing.agents.features import Place, Point, locate
+from upswing.agents.features import Point, locate
 from upswing.agents.learners import Beginning, networks, values
 from upswing.agents.learners.backpropagation.dense import inputs
 from upswing.agents.learners.networks import NetworksLearner, QNetworks
@@ -37,17 +37,15 @@ class Options(architecture.Architecture):
         min_length=1,
         description="Numbers of units of one or two hidden layers, input side first.",
     )
-    teacher: str = Field(
-        default="fuzzy",
-        pattern="^(fuzzy|energy-lqr)$",
-        description="The controller that is learned from, fuzzy or energy-lqr, with its own defaults.",
+    teacher: Literal["fuzzy", "energy-lqr"] = Field(
+        default="fuzzy", description="The controller that is learned from, as its defaults make it."
     )
     pairs: Count = Field(
         default=4_000, description="Number of examples, a state and the teacher's action there."
     )
     epochs: Count = Field(default=30, description="How often the networks see each example.")
     batch_size: Count = Field(
-        default=50, description="Number of examples that are learned from at once."
+        default=100, description="Number of examples that are learned from at once."
     )
     lesson_rate: Positive = Field(
         default=0.03, description="Adam's step size while the networks are taught."
@@ -115,11 +113,10 @@ def taught(
         beginning: the lessons, and the stream of their order.
     """
     options = beginning.options
+    torch.set_num_threads(1)  # the matrices are small
     optimiser = torch.optim.Adam(model.parameters(), lr=options["lesson_rate"])
     count = beginning.encoder.modules
-    for batch in batches(
-        beginning.weights, len(states), options["batch_size"], options["epochs"]
-    ):
+    for batch in batches(beginning.weights, len(states), options["batch_size"], options["epochs"]):
         chosen = torch.from_numpy(batch)
         told, place = states[chosen], torch.arange(len(chosen))
         answers = torch.stack([model(module, told) for module in range(count)])
