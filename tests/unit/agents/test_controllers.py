@@ -8,6 +8,7 @@ from scipy.linalg import solve_discrete_are
 
 from tests.helpers import beyond_spec, run
 from tests.oracles import controllers
+from tests.paths import ROOT
 from upswing.agents.features import Point
 from upswing.agents.learners import energy_lqr, fuzzy, values
 from upswing.agents.policy import epsilon_greedy
@@ -15,7 +16,10 @@ from upswing.physics import pendulum
 from upswing.physics.pendulum import FROM_HANGING, Pendulum
 from upswing.runs.simulation import prepare
 from upswing.study.architecture import architecture_of
+from upswing.study.config import load
+from upswing.study.controller import ControllerOptions
 from upswing.study.errors import BadInput
+from upswing.study.matrix import Matrix
 from upswing.study.spec import parse
 
 FINE = {"pendulum": {"accelerations": tuple(float(a) for a in range(-10, 11))}}
@@ -161,5 +165,14 @@ def test_a_controller_has_no_step_size_and_is_told_the_state():
         ValidationError, match="`coding: grid` gives one tile; fuzzy takes the state"
     ):
         architecture_of(learner="fuzzy")
+    with pytest.raises(ValidationError, match="fuzzy never acts at random; leave `epsilon` out"):
+        architecture_of(learner="fuzzy", coding="continuous", epsilon=0.1)
     with pytest.raises(ValidationError, match="less than or equal to 90"):
         architecture_of(learner="energy-lqr", coding="continuous", catch=100.0)
+
+
+def test_in_a_study_a_controller_never_acts_at_random():
+    cells = Matrix(load(ROOT / "config/beyond.yaml")).cells.values()
+    found = [one for one in cells if isinstance(one.architecture, ControllerOptions)]
+    assert {one.architecture.learner for one in found} == {"fuzzy", "energy-lqr"}
+    assert {(one.epsilon, one.alpha) for one in found} == {(0.0, None)}

@@ -103,10 +103,8 @@ def test_q_learning_goes_on_from_the_lessons_along_the_gradients_of_torch(coding
 @pytest.mark.parametrize(
     ("kind", "teacher", "coding"),
     [
-        ("balancing", "fuzzy", "grid"),
         ("balancing", "fuzzy", "continuous"),
         ("full-control", "energy-lqr", "grid"),
-        ("full-control", "energy-lqr", "continuous"),
     ],
 )
 def test_a_pupil_does_the_task(kind, teacher, coding):
