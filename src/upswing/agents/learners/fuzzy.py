@@ -64,14 +64,11 @@ def degree(peaks: Array, term: int, x: float) -> float:
 
     Beyond the outermost peaks the outermost terms stay wholly true.
     """
-    if x < peaks[term]:
-        return (
-            1.0
-            if term == 0
-            else max(0.0, 1.0 - (peaks[term] - x) / (peaks[term] - peaks[term - 1]))
-        )
-    if x > peaks[term] and term < len(peaks) - 1:
-        return max(0.0, 1.0 - (x - peaks[term]) / (peaks[term + 1] - peaks[term]))
+    inside = min(max(x, peaks[0]), peaks[-1])
+    if inside < peaks[term]:
+        return float(max(0.0, 1.0 - (peaks[term] - inside) / (peaks[term] - peaks[term - 1])))
+    if inside > peaks[term]:
+        return float(max(0.0, 1.0 - (inside - peaks[term]) / (peaks[term + 1] - peaks[term])))
     return 1.0
 
 

@@ -122,7 +122,7 @@ def taught(
         answers = torch.stack([model(module, told) for module in range(count)])
         error = torch.mean((answers[modules[chosen], place] - wanted[chosen]) ** 2)
         optimiser.zero_grad()
-        error.backward()
+        error.backward()  # type: ignore[no-untyped-call]
         optimiser.step()
 
 
