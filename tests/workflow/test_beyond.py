@@ -42,11 +42,13 @@ SMALL = {
         "table": {"learner": "table"},
         "tilings": {"learner": "table", "coding": "tilings", "discount": 0.9},
         "sarsa": {"learner": "table", "method": "sarsa"},
+        "energy-lqr": {"learner": "energy-lqr", "coding": "continuous"},
     },
     "experiments": [
         {"title": "As in the thesis", "tasks": ["balancing", "full-control"], "architectures": ["table"], "alphas": [0.1]},
         {"title": "Other tiles", "tasks": ["full-control"], "architectures": ["tilings"], "alphas": [1]},
         {"title": "Another reward", "tasks": ["full-control-shaped"], "architectures": ["sarsa"], "alphas": [0.1]},
+        {"title": "Control theory", "tasks": ["full-control"], "architectures": ["energy-lqr"]},
     ],
     "search": {
         "task": "full-control",
@@ -109,7 +111,7 @@ def study(tmp_path_factory):
 
 def test_every_part_of_the_chapter_has_its_job(study):
     assert study.ran == {
-        "study": 1, "train_seeds_5000_to_5002": 4, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
+        "study": 1, "train_seeds_5000_to_5002": 5, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
         "changes": 1, "shortest": 1, "figure": 7, "viewer": 1, "report": 1,
     }  # fmt: skip
     assert study.jobs() == {}
@@ -124,6 +126,7 @@ def test_each_change_has_its_row(study):
     assert changes["change"].tolist() == ["As in the thesis"] * 2 + [
         "Other tiles",
         "Another reward",
+        "Control theory",
     ]
     for _, row in changes.iterrows():
         own = runs[runs["run"].str.startswith(f"{row['cell']}/")]
@@ -143,7 +146,8 @@ def test_each_change_has_its_row(study):
         assert np.isfinite(row["stable_step"]) == (row["stable"] >= len(own) / 2)
         assert row["median_run"] in own["run"].tolist()
         assert 1 < row["nanoseconds"] < 1e6
-    assert changes["discount"].tolist() == [0.7, 0.7, 0.9, 0.7]
+    assert changes["discount"].tolist() == [0.7, 0.7, 0.9, 0.7, 0.7]
+    assert changes["alpha"].isna().tolist() == 4 * [False] + [True]
 
 
 def test_the_page_shows_the_chapter(study):
@@ -151,6 +155,7 @@ def test_the_page_shows_the_chapter(study):
     for words in ("What each change buys", "Other tiles", "20.2000 rad/s", "0.874"):
         assert words in page
     assert 'id="verdicts"' not in page
+    assert re.search(r">energy-lqr</td><td[^>]*>–</td>", page)  # it has no α
     links = re.findall(r'href="(viewer/[^"#]*)#([^"]*)"', page)
     kept = {
         path.stem for path in (study.folder / "results/beyond/report/viewer/recordings").iterdir()

@@ -16,6 +16,7 @@ import yaml
 import upswing
 from tests.paths import ROOT
 from upswing.cli.main import main
+from upswing.study.architecture import architecture_of
 from upswing.study.config import validated
 from upswing.study.readings import Readings, options_of
 
@@ -216,8 +217,13 @@ def blocks_of_configuration() -> Iterator[tuple[str, dict]]:
 def test_what_a_page_shows_of_a_configuration_is_valid(where, block):
     base = yaml.safe_load((ROOT / "config/config.yaml").read_text("utf-8"))
     own = block.get("architectures", {})
-    cells = {"tasks": ["full-control"], "architectures": list(own), "alphas": [0.1]}
-    experiments = block.get("experiments", [cells])
+    controls = [name for name, keys in own.items() if not architecture_of(**keys).learns]
+    learners = [name for name in own if name not in controls]
+    cells = [
+        {"tasks": ["full-control"], "architectures": learners, "alphas": [0.1]},
+        {"tasks": ["full-control"], "architectures": controls},
+    ]
+    experiments = block.get("experiments", [one for one in cells if one["architectures"]])
     shown = {**base, "architectures": {**base["architectures"], **own}, "experiments": experiments}
     assert validated({where: shown}).experiments
 

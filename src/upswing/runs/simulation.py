@@ -76,11 +76,11 @@ def prepare(spec: Spec, seed: int) -> Setting:
         settings.learner,
         learners.Beginning(
             encoder=encoder,
-            accelerations=body.accelerations,
             options=options,
             readings=readings,
             lowest_q=-scale * task.largest_angle**2 / (1 - spec.discount),
             weights=weights,
+            body=body,
         ),
     )
     printed_error = settings.learner == "networks" and readings.error_sign == "printed"

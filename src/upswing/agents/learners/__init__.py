@@ -70,7 +70,12 @@ class Beginning(NamedTuple):
     readings: Readings
     lowest_q: float  # the smallest discounted return there can be, for a pessimistic first Q
     weights: np.random.Generator  # the stream of the first values or weights
-    accelerations: tuple[float, ...] = Pendulum().accelerations  # of the actions [m/s²]
+    body: Pendulum = Pendulum()  # what moves, for learners that know it
+
+    @property
+    def accelerations(self) -> tuple[float, ...]:
+        """What each action does to the cart [m/s²]."""
+        return self.body.accelerations
 
     @property
     def actions(self) -> int:

@@ -112,7 +112,7 @@ def critic_of(beginning: Beginning) -> Learner:
 
 def _part(beginning: Beginning, outputs: int) -> Learner:
     name = ActorOptions.part(beginning.options["hidden"])
-    plan = beginning._replace(accelerations=(0.0,) * outputs)
+    plan = beginning._replace(body=beginning.body._replace(accelerations=(0.0,) * outputs))
     learner: Learner = load("learners", name).create(plan)
     return learner
 
