@@ -56,6 +56,11 @@ class Experiment(Strict):
         max_length=100,
         description="What is changed; its cells then stand in the table of what each change buys.",
     )
+    source: Text = Field(
+        default="",
+        max_length=600,
+        description="Where that change comes from and what the thesis says of it; stands there, too.",
+    )
 
 
 class Candidates(Strict):

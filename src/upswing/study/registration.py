@@ -35,6 +35,11 @@ class Registered(Strict):
     )
     seeds: Checksum = Field(description="Of the seeds of every cell.")
     readings: Checksum = Field(description="Of the study's own readings.")
+    beyond: Checksum | None = Field(
+        default=None,
+        description="Of what is expected beyond the thesis, and of the seeds of its cells; nothing "
+        "before that was written down.",
+    )
 
 
 class Entry(Strict):
@@ -64,15 +69,26 @@ def load_registration(path: Path) -> tuple[Entry, ...]:
         raise BadInput(explained(Registration, error, lambda *_: str(path))) from None
 
 
-def of(study: Study, claims: Mapping[str, Claim], sweeps: Mapping[str, Sweep]) -> Registered:
-    """What an entry for these has to say."""
+def of(
+    study: Study,
+    claims: Mapping[str, Claim],
+    sweeps: Mapping[str, Sweep],
+    beyond: tuple[Study, Mapping[str, Claim]] | None = None,
+) -> Registered:
+    """What an entry for these has to say; ``beyond`` is the study beyond the thesis with its claims."""
     asked = {name: one.model_dump(mode="json") for name, one in sweeps.items()}
     return Registered(
         claims=checksum_of(canonical_claims(claims)),
         sweeps=checksum_of(json.dumps(asked)),
         seeds=seeds_of(study),
         readings=checksum_of(study.readings.model_dump_json()),
+        beyond=of_chapter(beyond[0], canonical_claims(beyond[1])) if beyond else None,
     )
+
+
+def of_chapter(study: Study, claims: str) -> str:
+    """The checksum of the study beyond the thesis: of its seeds and its claims, in canonical form."""
+    return checksum_of(f"{seeds_of(study)} {claims}")
 
 
 def seeds_of(study: Study) -> str:

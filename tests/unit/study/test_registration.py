@@ -14,10 +14,12 @@ from upswing.study.sweeps import load_sweeps
 STUDY = load(Path("config/config.yaml"))
 CLAIMS = load_claims(Path("config/claims.yaml"), STUDY)
 SWEEPS = load_sweeps(Path("config/readings.yaml"), STUDY)
+BEYOND = load(Path("config/beyond.yaml"))
+EXPECTED = load_claims(Path("config/beyond-claims.yaml"), BEYOND)
 
 
 def test_what_is_judged_is_what_was_registered_last():
-    now = registration.of(STUDY, CLAIMS, SWEEPS)
+    now = registration.of(STUDY, CLAIMS, SWEEPS, (BEYOND, EXPECTED))
     last = registration.load_registration(registration.REGISTRATION)[-1]
     changed = registration.changed_since(last, now)
     assert not changed, (
@@ -31,25 +33,34 @@ def test_no_verdict_uses_a_seed_of_the_selection_or_one_that_was_seen_before():
     assert min(judged) >= 10_000
     for sweep in SWEEPS.values():
         assert judged.isdisjoint(range(sweep.first_seed, sweep.last_seed + 1))
-    beyond = load(Path("config/beyond.yaml"))
-    assert judged.isdisjoint(beyond.seeds)
+    beyond = {seed for spec in Matrix(BEYOND).cells.values() for seed in spec.seeds}
+    assert judged.isdisjoint(beyond)
+    assert BEYOND.search is not None
+    assert beyond.isdisjoint(BEYOND.search.seeds)
 
 
 def test_a_threshold_a_seed_or_a_reading_that_changes_is_named():
-    now = registration.of(STUDY, CLAIMS, SWEEPS)
+    now = registration.of(STUDY, CLAIMS, SWEEPS, (BEYOND, EXPECTED))
     entry = registration.Entry(date="2026-11-26", registered=now, unseen="none", why="it is a test")
     part = CLAIMS["C2"].parts[0].model_copy(update={"at_least": 0.81})
     claims = {**CLAIMS, "C2": CLAIMS["C2"].model_copy(update={"parts": (part,)})}
     seeds = STUDY.model_copy(update={"seeds": (1,)})
     readings = STUDY.readings.model_copy(update={"ties": "first"})
     read = STUDY.model_copy(update={"readings": readings})
+    without = {name: claim for name, claim in EXPECTED.items() if name != "B2"}
     for other, name in (
         ((STUDY, claims, SWEEPS), "claims"),
         ((seeds, CLAIMS, SWEEPS), "seeds"),
         ((read, CLAIMS, SWEEPS), "readings"),
         ((STUDY, CLAIMS, {"tables": SWEEPS["tables"]}), "sweeps"),
+        ((STUDY, CLAIMS, SWEEPS, (BEYOND, without)), "beyond"),
+        (
+            (STUDY, CLAIMS, SWEEPS, (BEYOND.model_copy(update={"seeds": (6000,)}), EXPECTED)),
+            "beyond",
+        ),
     ):
-        assert registration.changed_since(entry, registration.of(*other)) == [name]
+        chapter = other[3] if len(other) > 3 else (BEYOND, EXPECTED)
+        assert registration.changed_since(entry, registration.of(*other[:3], chapter)) == [name]
     assert registration.changed_since(entry, now) == []
 
 
