@@ -29,8 +29,33 @@ from upswing.study.readings import Readings
 
 pytestmark = pytest.mark.heavy  # it runs studies with sweeps, or beyond the thesis
 
+EXPECTED = {
+    "E1": {
+        "statement": "Overlapping tiles are not enough in 6,000 steps.",
+        "cell": "full-control/tilings/alpha-1",
+        "parts": [
+            {
+                "says": "tables on overlapping tiles that stand at the end", "kind": "share",
+                "cells": ["full-control/tilings/alpha-1"], "where": {"upright_at_end": {"at_least": 0.9}},
+                "at_most": 0.99, "partly": 1.0, "because": "it is short",
+            }
+        ],
+    },
+    "E2": {
+        "statement": "Every table falls.",
+        "cell": "balancing/table/alpha-0.1",
+        "parts": [
+            {
+                "says": "tables that fall before the last fifth", "kind": "share",
+                "cells": ["balancing/table/alpha-0.1"], "where": {"falls": {"at_most": 0}},
+                "at_least": 0.99, "partly": 0.9, "because": "it is the contrary of what is claimed",
+            }
+        ],
+    },
+}  # fmt: skip
 SMALL = {
     "results": "results/beyond",
+    "claims": "expected.yaml",
     "seeds": [5000, 5001, 5002],
     "seeds_per_job": 15,
     "tasks": {
@@ -46,7 +71,7 @@ SMALL = {
     },
     "experiments": [
         {"title": "As in the thesis", "tasks": ["balancing", "full-control"], "architectures": ["table"], "alphas": [0.1]},
-        {"title": "Other tiles", "tasks": ["full-control"], "architectures": ["tilings"], "alphas": [1]},
+        {"title": "Other tiles", "source": "§3.3 names them.", "tasks": ["full-control"], "architectures": ["tilings"], "alphas": [1]},
         {"title": "Another reward", "tasks": ["full-control-shaped"], "architectures": ["sarsa"], "alphas": [0.1]},
         {"title": "Control theory", "tasks": ["full-control"], "architectures": ["energy-lqr"]},
     ],
@@ -103,6 +128,7 @@ def made_up_bound(folder):
 def study(tmp_path_factory):
     """A small study of changes, run by Snakemake; the bound is there already."""
     one = Study(tmp_path_factory.mktemp("beyond"))
+    (one.folder / "config/expected.yaml").write_text(yaml.safe_dump(EXPECTED), "utf-8")
     one.write(SMALL)
     made_up_bound(one.folder / "results/beyond")
     one.ran = one.jobs()
@@ -111,7 +137,7 @@ def study(tmp_path_factory):
 
 def test_every_part_of_the_chapter_has_its_job(study):
     assert study.ran == {
-        "study": 1, "train_seeds_5000_to_5002": 5, "tables": 1, "verdicts": 1, "history": 1, "comparison": 3,
+        "study": 1, "train_seeds_5000_to_5002": 5, "tables": 1, "verdicts": 1, "history": 1, "comparison": 5,
         "changes": 1, "shortest": 1, "figure": 7, "viewer": 1, "report": 1,
     }  # fmt: skip
     assert study.jobs() == {}
@@ -154,7 +180,21 @@ def test_the_page_shows_the_chapter(study):
     page = (study.folder / "results/beyond/report/index.html").read_text("utf-8")
     for words in ("What each change buys", "Other tiles", "20.2000 rad/s", "0.874"):
         assert words in page
-    assert 'id="verdicts"' not in page
+    tour = re.search(r'id="tour".*?</ol>', page, re.DOTALL)[0]
+    entries = [re.sub(r"<[^>]*>", "", entry) for entry in tour.split("\n<li><strong>")[1:]]
+    assert [entry.partition(".")[0] for entry in entries] == [
+        "As in the thesis", "Other tiles", "Another reward", "Control theory",
+    ]  # fmt: skip
+    assert ["E2" in entry for entry in entries] == [True, False, False, False]
+    assert ["E1" in entry for entry in entries] == [False, True, False, False]
+    assert "§3.3 names them." in entries[1]
+    assert "does not hold" in entries[0]
+    assert "reproduced" not in re.sub(
+        r"<style>.*?</style>|<script.*?</script>|class=\"[^\"]*\"", "", page, flags=re.DOTALL
+    )
+    for claim in EXPECTED:
+        assert f'href="#{claim}"' in tour
+        assert f'id="{claim}"' in page
     assert re.search(r">energy-lqr</td><td[^>]*>–</td>", page)  # it has no α
     links = re.findall(r'href="(viewer/[^"#]*)#([^"]*)"', page)
     kept = {
@@ -181,6 +221,7 @@ def test_the_studys_own_page_has_the_chapter_once_it_has_been_run(study, results
     assert 'id="verdicts"' in page
     for place in set(re.findall(r'href="(\.\./beyond/[^"#]*)', page)):
         assert (folder / "report" / place).resolve().is_file(), place
+    assert 'href="../beyond/report/index.html#E1"' in page
     assert chapter(folder)["own"] is False
 
 

@@ -93,7 +93,12 @@ def test_a_study_of_all_of_them_runs_to_its_page(together):
     results = together.folder / "results/mine"
     assert (results / "figures/rewards.svg").is_file()
     page = (results / "report/index.html").read_text("utf-8")
-    for words in ("The mean reward of every run", "the learner linear", "double-q", "quadrants"):
+    for words in (
+        "The mean reward of every run",
+        "the learner four-weights",
+        "double-q",
+        "quadrants",
+    ):
         assert words in page
     assert together.plan() == {}
 

@@ -114,7 +114,7 @@ NO_MATTER = {
 }
 """What jobs import that changes nothing in what they write."""
 
-OPTIONS = {f"{STUDY}deep_q", f"{STUDY}actor"}
+OPTIONS = {f"{STUDY}deep_q", f"{STUDY}actor", f"{STUDY}controller"}
 """What options of several learners are made of: a study that is read has them in full, whoever reads it. Only
 those who train compute with them."""
 

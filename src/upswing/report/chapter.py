@@ -8,10 +8,18 @@ import pandas as pd
 
 from upswing.analysis.beyond_tables import OF_A_CHANGE, OF_THE_CHOSEN, REMEDY
 from upswing.optimal.tables import FULL_CONTROL, OF_THE_BOUND
+from upswing.report.judged import judged
+from upswing.runs.files.tables import read_evidence
 from upswing.runs.files.typed_table import read_table
-from upswing.study.paths import BEYOND, BOUND, CHANGES, CHOSEN
+from upswing.runs.study_file import read_study
+from upswing.study.ids import cell_of, run_of
+from upswing.study.paths import BEYOND, BOUND, CHANGES, CHOSEN, VERDICTS
 
 Row = dict[str, Any]
+
+
+NOTHING: Row = {"own": False, "folder": None}
+"""What there is of a chapter where none was run."""
 
 
 def chapter(results: Path, at: str = f"../{BEYOND}/report/") -> Row:
@@ -25,26 +33,51 @@ def chapter(results: Path, at: str = f"../{BEYOND}/report/") -> Row:
                 "own": folder == results,
                 "folder": folder,
                 "base": base,
-                "changes": _groups(read_table(folder / CHANGES, OF_A_CHANGE, REMEDY)),
+                "changes": changes(folder),
                 "bound": _bound(read_table(folder / BOUND, OF_THE_BOUND, REMEDY)),
                 "optimal": _optimal(read_table(folder / BOUND, OF_THE_BOUND, REMEDY)),
                 "chosen": _rows(read_table(folder / CHOSEN, OF_THE_CHOSEN, REMEDY))
                 if (folder / CHOSEN).exists()
                 else [],
             }
-    return {"own": False, "folder": None}
+    return NOTHING
 
 
 def _rows(frame: pd.DataFrame) -> list[Row]:
     return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
 
 
-def _groups(changes: pd.DataFrame) -> list[tuple[str, list[Row]]]:
-    """The cells of each change, in order; experiments of the same title are one change."""
-    return [
-        (title, _rows(changes[changes["change"] == title]))
-        for title in dict.fromkeys(changes["change"])
-    ]
+def changes(folder: Path) -> list[Row]:
+    """Each change: its title, where it comes from, its cells in order, and what was expected of it.
+
+    Experiments of the same title are one change. A claim of the study's own belongs to the change whose
+    cell it shows in recordings.
+    """
+    study = read_study(folder)
+    table = read_table(folder / CHANGES, OF_A_CHANGE, REMEDY)
+    judges = bool(study.claims) and study.judges and (folder / VERDICTS).exists()
+    claims = judged(folder, read_evidence(folder), own=True) if judges else []
+    found = []
+    for title in dict.fromkeys(table["change"]):
+        cells = _rows(table[table["change"] == title])
+        names = {row["cell"] for row in cells}
+        found.append(
+            {
+                "title": title,
+                "source": next(
+                    (one.source for one in study.experiments if one.title == title and one.source),
+                    "",
+                ),
+                "cells": cells,
+                "expected": [claim for claim in claims if _cell_shown(claim) in names],
+            }
+        )
+    return found
+
+
+def _cell_shown(claim: Row) -> str:
+    """The cell of a claim's recordings; empty where it has none."""
+    return cell_of(run_of(claim["recordings"][0])) if len(claim["recordings"]) else ""
 
 
 def _bound(bound: pd.DataFrame) -> Row:

@@ -11,24 +11,32 @@ from upswing.report import words
 from upswing.report.readings_shown import rows
 from upswing.report.scale import strip
 from upswing.runs.files.tables import read_verdicts
-from upswing.study.claim_parts import WEAKEST_FIRST
+from upswing.study.claim_parts import WEAKEST_FIRST, words_of
 from upswing.study.errors import BadInput
 from upswing.study.paths import EVIDENCE
 
 Row = dict[str, Any]
 
 
-def judged(results: Path, comparisons: pd.DataFrame) -> list[Row]:
-    """Each verdict with its evidence, and each comparison with its strip."""
+def judged(results: Path, comparisons: pd.DataFrame, own: bool) -> list[Row]:
+    """Each verdict with its evidence, and each comparison with its strip.
+
+    Args:
+        results: a folder of results.
+        comparisons: its table of evidence.
+        own: whether the claims are the study's own and not the thesis's.
+    """
     evidence = rows(comparisons)
     verdicts = rows(read_verdicts(results))
+    for row in (*evidence, *verdicts):
+        row["own"] = own
     for row in evidence:
         row["strip"] = strip(row)
     for verdict in verdicts:
-        own = [row for row in evidence if row["claim"] == verdict["claim"]]
-        verdict["evidence"] = own
+        compared = [row for row in evidence if row["claim"] == verdict["claim"]]
+        verdict["evidence"] = compared
         same = [
-            row for row in own
+            row for row in compared
             if (row["cells"], row["threshold"]) == (verdict["cells"], verdict["threshold"])
         ]  # fmt: skip
         if not same:
@@ -40,13 +48,13 @@ def judged(results: Path, comparisons: pd.DataFrame) -> list[Row]:
             )
         verdict["decisive"] = same[0]
         verdict["unit"] = words.unit(same[0])
-        for row in own:
-            row["several"] = sum(other["part"] == row["part"] for other in own) > 1
+        for row in compared:
+            row["several"] = sum(other["part"] == row["part"] for other in compared) > 1
             row["many_cells"] = len(str(row["cells"]).split(" : ")) > 1
         verdict["held"] = [
-            next(row["says"] for row in own if row["part"] == part)
-            for part in sorted({row["part"] for row in own})
-            if all(row["verdict"] == "reproduced" for row in own if row["part"] == part)
+            next(row["says"] for row in compared if row["part"] == part)
+            for part in sorted({row["part"] for row in compared})
+            if all(row["verdict"] == "reproduced" for row in compared if row["part"] == part)
         ]
         verdict["figure"] = None if pd.isna(verdict["figure"]) else int(verdict["figure"])
     return verdicts
@@ -69,10 +77,11 @@ def point_at_own(verdicts: list[Row], shown: list[Row], own: Collection[str]) ->
 
 
 def counts(verdicts: list[Row]) -> list[tuple[str, list[str]]]:
-    """Each verdict that was given, the best first, with its claims."""
+    """Each verdict that was given, as it is shown, the best first, with its claims."""
     given = Counter(row["verdict"] for row in verdicts)
+    own = any(row["own"] for row in verdicts)
     return [
-        (word, [row["claim"] for row in verdicts if row["verdict"] == word])
+        (words_of(word, False, own), [row["claim"] for row in verdicts if row["verdict"] == word])
         for word in reversed(WEAKEST_FIRST)
         if given[word]
     ]

@@ -45,7 +45,7 @@ def is_own(study: Study, verdicts: Sequence[Row]) -> bool:
 
     The study beyond the thesis, which has a folder of that name, is the thesis's chapter.
     """
-    return bool(study.title or study.claims) or (not verdicts and not is_chapter(study))
+    return not is_chapter(study) and bool(study.title or study.claims or not verdicts)
 
 
 def is_chapter(study: Study) -> bool:

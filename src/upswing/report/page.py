@@ -130,7 +130,7 @@ def page_of(
     environment.filters.update(words.FILTERS, source_of=source_of, cards=cards)
     matrix, there = Matrix(study), joined(results, study)
     evidence = read_evidence(results)
-    verdicts = shown_verdicts(judged(results, evidence), study)
+    verdicts = shown_verdicts(judged(results, evidence, bool(study.claims)), study)
     own = is_own(study, verdicts)
     cells = rows(read_cells(results, there.cells))
     table = read_runs(results, list(there.runs), OF_A_SHOWN_RUN)
@@ -171,7 +171,7 @@ def page_of(
         "citation": citation(templates.parent / CITATION),
         "lent": lent,
         "kept": kept({row["task"] for row in cells}, drawn_figures, verdicts),
-        "registered": None if study.claims else registered(results, study),
+        "registered": registered(results, study) if is_chapter(study) or not study.claims else None,
         "exploratory": {} if study.claims else exploratory(templates),
         "over": over_readings(results, templates, verdicts, study),
         **moves,

@@ -53,7 +53,7 @@ PICTURE = ("svg", "png", "json")
 OF_THE_PAGE = (PAGE, RUNS_CSV, EVIDENCE_CSV)
 
 CHAPTER = (
-    CHANGES, BOUND, CHOSEN,
+    STUDY, CHANGES, BOUND, CHOSEN, VERDICTS, EVIDENCE,
     *(figure(name, "svg") for name in ("bound", "settling", "prediction", "changes")),
 )  # fmt: skip
 """What the page shows of the chapter beyond the thesis, once that has been run."""
@@ -288,13 +288,14 @@ class Targets(TargetsOfSweeps):
         swept = [
             p for p in self._below(*SWEPT) if (coming and p in self.readings) or Path(p).exists()
         ]
-        return [
+        made_from = [
             *self._below(STUDY, ENTRIES),
             *self.tables,
             *self.pictures("svg", "json"),
             *swept,
             *(self.beyond or [path for path in self._chapter() if Path(path).exists()]),
         ]
+        return list(dict.fromkeys(made_from))
 
     @cached_property
     def tiles(self) -> list[str]:

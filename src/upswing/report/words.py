@@ -48,7 +48,7 @@ def alpha(value: float | None) -> str:
 
 def verdict(row: Row) -> str:
     """A verdict as it is shown."""
-    return words_of(row["verdict"], row["could_be_better"])
+    return words_of(row["verdict"], row["could_be_better"], row["own"])
 
 
 def recording(run: str) -> str:

@@ -261,6 +261,18 @@ def weakest(verdicts: list[Verdict]) -> Verdict:
     return min(verdicts, key=WEAKEST_FIRST.index)
 
 
-def words_of(verdict: str, could_be_better: bool) -> str:
-    """A verdict as it is shown: "partly" says whether more runs might make it better."""
-    return f"at least {verdict}" if verdict == "partly" and could_be_better else verdict
+OF_ONES_OWN = {"reproduced": "holds", "not reproduced": "does not hold"}
+"""How verdicts are shown on claims of one's own, of which there is nothing to reproduce."""
+
+
+def words_of(verdict: str, could_be_better: bool, own: bool) -> str:
+    """A verdict as it is shown.
+
+    Args:
+        verdict: the verdict.
+        could_be_better: whether more runs might make it better, which "partly" says.
+        own: whether the claim is of a study's own file and not the thesis's.
+    """
+    if verdict == "partly" and could_be_better:
+        return f"at least {verdict}"
+    return OF_ONES_OWN.get(verdict, verdict) if own else verdict

@@ -41,7 +41,8 @@ def verdicts(
     found = OwnRuns(folder, asked_study(study))
     judged = claims_of(found.study, claims)
     over, _ = over_readings(folder, templates, judged)
-    print_verdicts(write_verdicts(found, judged, over), details, found.study.judges)
+    verdicts = write_verdicts(found, judged, over)
+    print_verdicts(verdicts, details, found.study.judges, own=bool(found.study.claims))
 
 
 def _figures() -> list[str]:

@@ -10,33 +10,38 @@ from upswing.study.claim_parts import words_of
 
 COLOURS = {
     "reproduced": "green",
+    "holds": "green",
     "partly": "yellow",
     "at least partly": "yellow",
     "inconclusive": "magenta",
     "not reproduced": "red",
+    "does not hold": "red",
     "not in this study": "bright_black",
 }
 HEADER = ("claim", "verdict", "estimate [95 %]", "threshold", "n", "what is claimed")
 
 
-def _counted(rows: list[dict[str, Any]]) -> str:
+def _counted(rows: list[dict[str, Any]], own: bool) -> str:
     """How many of these have which verdict."""
-    shown = Counter(words_of(row["verdict"], row["could_be_better"]) for row in rows)
+    shown = Counter(words_of(row["verdict"], row["could_be_better"], own) for row in rows)
     return ", ".join(f"{shown[each]} {each}" for each in COLOURS if shown[each])
 
 
-def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool = True) -> None:
+def print_verdicts(
+    verdicts: pd.DataFrame, details: bool = False, judges: bool = True, own: bool = False
+) -> None:
     """Print a row for each claim, below it what more is known of it, and how many have which verdict.
 
     Args:
         verdicts: the table.
         details: whether to say what is known of each.
         judges: whether the study says of itself that its runs are enough to judge by.
+        own: whether the claims are the study's own and not the thesis's.
     """
     found = [{str(key): value for key, value in row.items()} for row in verdicts.to_dict("records")]
     print_table(
         HEADER,
-        [_cells(row) for row in found],
+        [_cells(row, own) for row in found],
         right=("n",),
         words=[row["statement"] for row in found],
         below=[_details(row) for row in found] if details else (),
@@ -46,7 +51,7 @@ def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool =
         [row for row in found if bool(row["check"]) == is_check] for is_check in (0, 1)
     )
     counts = "; ".join(
-        f"{len(rows)} {what}: {_counted(rows)}"
+        f"{len(rows)} {what}: {_counted(rows, own)}"
         for what, rows in (("empirical claims", claims), ("checks", checks))
         if rows
     )
@@ -58,11 +63,11 @@ def print_verdicts(verdicts: pd.DataFrame, details: bool = False, judges: bool =
         )
 
 
-def _cells(row: dict[str, Any]) -> tuple[str, ...]:
+def _cells(row: dict[str, Any], own: bool) -> tuple[str, ...]:
     estimate = f"{row['estimate']:.3g} [{row['low']:.3g}, {row['high']:.3g}]"
     return (
         row["claim"],
-        words_of(row["verdict"], row["could_be_better"]),
+        words_of(row["verdict"], row["could_be_better"], own),
         estimate if row["n"] else "no runs",
         row["threshold"],
         str(row["n"]),
