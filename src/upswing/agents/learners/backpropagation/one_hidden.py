@@ -116,6 +116,8 @@ def _values(net: OneHidden, place: Place) -> Q:
             v, h = net.output_weights[module, action], kept.hidden[module, action, tile]
             kept.q[module, action, tile] = net.output_bias[module, action] + product(v, h)
             kept.q_at[module, action, tile] = kept.updates[module, action]
+    # In a loop of its own, which the compiler unrolls: together a step takes 5 % more.
+    for action in range(len(q)):
         q = with_item(q, action, kept.q[module, action, tile])
     return q
 

@@ -84,6 +84,8 @@ def _values(net: TwoHidden, place: Place) -> Q:
     q = net.zeros
     for action in range(len(q)):
         evaluate(net, module, action, tile)
+    # In a loop of its own, as in one_hidden.py.
+    for action in range(len(q)):
         q = with_item(q, action, kept.q[module, action, tile])
     return q
 
