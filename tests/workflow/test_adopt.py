@@ -31,6 +31,7 @@ STUDY = {
 }
 
 
+@pytest.mark.heavy
 def test_the_next_run_of_the_study_draws_it_and_trains_nothing(once, tmp_path, monkeypatch):
     study = as_run(once, tmp_path)
     monkeypatch.chdir(tmp_path)

@@ -13,6 +13,8 @@ from upswing.analysis.doctor import examine
 from upswing.analysis.history.read import entries
 from upswing.study.history_paths import ENTRIES, NOTE, folder_of
 
+pytestmark = pytest.mark.heavy  # it runs a study again and again
+
 ONE = {**SMALL, "experiments": SMALL["experiments"][:1]}
 """Two cells, of which one will get another α."""
 

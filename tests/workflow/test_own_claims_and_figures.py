@@ -8,6 +8,8 @@ import pytest
 
 from tests.workflow.test_extending import blocks, followed
 
+pytestmark = pytest.mark.heavy  # it runs two studies, each several times
+
 MINE = "results/mine"
 
 

@@ -77,6 +77,7 @@ def test_the_wheel_holds_the_projects_own_files_and_none_twice(wheel):
     assert not [name for name in names if name.split("/")[0] in ("config", "report", "workflow")]
 
 
+@pytest.mark.heavy
 def test_a_study_is_made_where_there_is_no_checkout(python, tmp_path):
     done = called(python, tmp_path, "upswing", "init", "mine")
     assert done.returncode == 0, done.stderr

@@ -1,7 +1,8 @@
 """What README and documentation show of the results: verdicts, words, pictures, the deviations."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from PIL import Image
@@ -10,6 +11,7 @@ from upswing.analysis.robustness.shipped import write_shipped
 from upswing.analysis.robustness.tables import OF_A_SELECTION
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
+from upswing.report.chapter import chapter
 from upswing.report.glossary import as_sections, glossary, in_a_paragraph
 from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
@@ -19,6 +21,8 @@ from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
 from upswing.study.paths import ROBUST, SELECTION, VERDICTS, figure
 from upswing.study.yaml_file import read_yaml
+
+Row = dict[str, Any]
 
 FIGURES = ("overview", "step-sizes")
 """The figures that the documentation shows."""
@@ -30,7 +34,7 @@ ANIMATION = "pendulum.svg"
 README = Path("README.md")
 PARTS = {
     README: ("verdicts", "words"),
-    Path("docs/findings.md"): ("evidence",),
+    Path("docs/findings.md"): ("evidence", "expected"),
     Path("docs/report.md"): ("glossary",),
     Path("docs/thesis.md"): ("deviations",),
 }
@@ -40,6 +44,7 @@ GLOSSARY = {"words": in_a_paragraph, "glossary": as_sections}
 """How the parts with explained words show them."""
 
 TABLE = "verdicts.csv"
+EXPECTED = "expected.csv"
 COLOURS = 64
 END = "<!-- end -->"
 
@@ -54,7 +59,8 @@ def write_readme(
     """Renew the generated parts of ``readme`` and of the pages and pictures in ``docs`` beside it.
 
     What they come from is kept below ``templates``; so is what the sweeps say of ``claims``, with what
-    it was ``made_from``. The animation stays as it is if the study has not the two cells that it shows.
+    it was ``made_from``. The animation stays as it is if the study has not the two cells that it shows,
+    and so does what was expected beyond the thesis where the chapter has not been run.
 
     Raises:
         BadInput: the results have no verdicts or figures, or a page no place for a part.
@@ -67,6 +73,10 @@ def write_readme(
     verdicts = verdicts_of(read_verdicts(results))
     with written(templates / TABLE) as beside:
         verdicts.to_csv(beside, index=False)
+    told = chapter(results)
+    if expected := expected_of(told["changes"] if told["folder"] else ()):
+        with written(templates / EXPECTED) as beside:
+            pd.DataFrame(expected).to_csv(beside, index=False)
     if claims is not None and (results / ROBUST).exists():
         write_shipped(results, templates, claims, made_from or {})
     if (results / SELECTION).exists():
@@ -96,7 +106,7 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
         {
             "claim": [row["claim"] for row in rows],
             "the thesis says": [row["statement"] for row in rows],
-            "verdict": [words.verdict(row) for row in rows],
+            "verdict": [words.verdict({**row, "own": False}) for row in rows],
             "over readings": [words.over_readings(row) for row in rows],
             "fragile": [row["fragile_because"] or "no" for row in rows],
             "check": [row["check"] for row in rows],
@@ -106,6 +116,23 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
             "n": [str(row["n"]) for row in rows],
         }
     )
+
+
+def expected_of(told: Sequence[Row]) -> list[dict[str, str]]:
+    """A row for each claim of the chapter's changes (``chapter.changes``), all of it text."""
+    return [
+        {
+            "change": change["title"],
+            "what was expected": f"{claim['claim']}: {claim['statement']}",
+            "verdict": words.verdict(claim),
+            "measured, the weakest part": claim["measure"],
+            "estimate [95 %]": words.interval(claim),
+            "threshold": claim["threshold"],
+            "n": str(claim["n"]),
+        }
+        for change in told
+        for claim in change["expected"]
+    ]
 
 
 def counted(table: pd.DataFrame) -> str:
@@ -165,5 +192,10 @@ def _part(name: str, templates: Path) -> str:
         return "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1))
     if name in GLOSSARY:
         return GLOSSARY[name](glossary(templates))
+    if name == "expected":
+        expected = pd.read_csv(templates / EXPECTED, dtype=str, keep_default_na=False)
+        said = expected["verdict"].value_counts(sort=False).items()
+        counts = ", ".join(f"{number} {verdict}" for verdict, number in said)
+        return f"Of {len(expected)} expectations: {counts}.\n\n{markdown(expected)}"
     table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
     return f"{counted(table)}\n\n{markdown(in_short(table) if name == 'verdicts' else table)}"

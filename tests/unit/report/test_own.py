@@ -12,7 +12,7 @@ from tests.unit.report.small_pages import page_of_small
 from tests.unit.report.test_pendulums import study_of, text_of
 from upswing.physics.braking import highest_stoppable_speed
 from upswing.physics.pendulum import Pendulum
-from upswing.report.command import commands, configuration_of
+from upswing.report.command import Configuration, commands, configuration_of
 from upswing.report.glossary import glossary
 from upswing.report.own import counted, is_own, own_words, shown_verdicts, title_of
 from upswing.report.pendulums import length_of_a_step, lengths, pendulums
@@ -156,7 +156,35 @@ def test_a_configuration_is_found_by_its_folder_among_others_that_are_none(tmp_p
         (ROOT / "config/smoke.yaml").read_text("utf-8").replace("results/smoke", "results/strong")
     )
     (tmp_path / "mine.yaml").write_text(text, "utf-8")
-    assert configuration_of(validated({"study": OWN}), tmp_path) == tmp_path / "mine.yaml"
+    found = configuration_of(validated({"study": OWN}), tmp_path)
+    assert found == Configuration(tmp_path / "mine.yaml", elsewhere=False)
+
+
+@pytest.mark.parametrize(
+    ("file", "folder", "with_make", "without"),
+    [
+        ("config.yaml", "mine", "make reproduce RESULTS=mine", "snakemake --cores all --config results=mine"),
+        ("smoke.yaml", "mine/smoke", "make smoke RESULTS=mine",
+         "snakemake --cores all --configfile config/smoke.yaml --config results=mine/smoke"),
+        ("beyond.yaml", "my own/beyond", "make beyond RESULTS='my own'",
+         "snakemake --cores all --configfile config/beyond.yaml --config results='my own/beyond'"),
+        ("poles.yaml", "mine", "make study CONFIG=config/poles.yaml RESULTS=mine",
+         "snakemake --cores all --configfile config/poles.yaml --config results=mine"),
+        ("poles.yaml", "results/poles", "make study CONFIG=config/poles.yaml",
+         "snakemake --cores all --configfile config/poles.yaml"),
+        ("config.yaml", "results", "make reproduce", "snakemake --cores all"),
+    ],
+)  # fmt: skip
+def test_results_elsewhere_are_in_the_command_and_so_is_a_folder_without_a_makefile(
+    file, folder, with_make, without, tmp_path
+):
+    study = load(Path("config") / file).model_copy(update={"results": folder})
+    here = commands(study, Path("config"))
+    assert (here.make, here.upswing) == (with_make, ".venv/bin/upswing")
+    there = commands(study, Path("config"), tmp_path / "Makefile")
+    assert (there.make, there.upswing) == (without, "upswing")
+    assert there.browse.startswith("upswing browse")
+    assert ("--config results=" in there.snakemake) == ("--config results=" in without)
 
 
 def row(claim, verdict, cells):

@@ -20,13 +20,16 @@ from upswing.report.animation import (
     drawn,
     stretches,
 )
+from upswing.report.chapter import chapter
 from upswing.report.readme import (
     ANIMATION,
+    EXPECTED,
     FIGURES,
     PARTS,
     PICTURES,
     README,
     TABLE,
+    expected_of,
     renewed,
     verdicts_of,
     write_readme,
@@ -34,6 +37,7 @@ from upswing.report.readme import (
 from upswing.runs.results import Results
 from upswing.runs.study_file import canonical, read_study, write_study
 from upswing.runs.train import train
+from upswing.study.claims import load_claims
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
@@ -99,6 +103,21 @@ def test_the_verdicts_are_those_of_the_study_where_it_was_run():
     found = pd.read_parquet(results_of_the_study() / VERDICTS)
     shown = pd.read_csv(TEMPLATES / TABLE, dtype=str, keep_default_na=False)
     pd.testing.assert_frame_equal(shown, verdicts_of(found), check_dtype=False)
+
+
+def test_what_was_expected_is_that_of_the_chapter_where_it_was_run():
+    told = chapter(results_of_the_study())
+    if told["folder"] is None or read_study(told["folder"]) != load(ROOT / "config/beyond.yaml"):
+        pytest.skip("the study of config/beyond.yaml has not been run here")
+    shown = pd.read_csv(TEMPLATES / EXPECTED, dtype=str, keep_default_na=False)
+    pd.testing.assert_frame_equal(shown, pd.DataFrame(expected_of(told["changes"])))
+
+
+def test_findings_have_a_row_for_each_expectation():
+    expected = load_claims(ROOT / "config/beyond-claims.yaml")
+    text = (ROOT / FINDINGS).read_text("utf-8")
+    for claim, one in expected.items():
+        assert f"| {claim}: {one.statement} |" in text
 
 
 def test_the_animation_is_that_of_the_study_where_it_was_run():

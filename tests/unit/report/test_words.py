@@ -36,6 +36,19 @@ def test_an_estimate_says_what_it_counts():
         assert words.unit({"measure": measure}) == expected
 
 
+def test_a_claim_of_ones_own_holds_or_does_not_and_reproduces_nothing():
+    def said(verdict, own, could_be_better=False):
+        return words.verdict({"verdict": verdict, "could_be_better": could_be_better, "own": own})
+
+    assert [said(word, own=True) for word in ("reproduced", "not reproduced", "inconclusive")] == [
+        "holds", "does not hold", "inconclusive",
+    ]  # fmt: skip
+    assert said("not reproduced", own=False) == "not reproduced"
+    assert {said("partly", own, could_be_better=True) for own in (True, False)} == {
+        "at least partly"
+    }
+
+
 def test_rows_are_parted_where_a_column_changes():
     rows = [{"a": 1, "b": 1}, {"a": 1, "b": 2}, {"a": 2, "b": 2}, {"a": 1, "b": 1}]
     found = words.groups(rows, "a")

@@ -57,7 +57,7 @@ def _cells(entry: "Entry") -> tuple[str, ...]:
         entry.commit_shown,
         f"{entry.cells:,}",
         f"{entry.runs.all:,}",
-        f"{held} of {judged} reproduced",
+        f"{held} of {judged} hold",
     )
 
 
