@@ -25,7 +25,7 @@ def write_exploratory(results: Path, templates: Path) -> Path:
     rows = [
         {
             "claim": row["claim"],
-            "verdict": words.verdict({str(k): v for k, v in row.items()}),
+            "verdict": words.verdict({**{str(k): v for k, v in row.items()}, "own": False}),
             "estimate": words.interval({str(k): v for k, v in row.items()}),
             "n": row["n"],
             "seeds": f"{min(seeds)} to {max(seeds)}",

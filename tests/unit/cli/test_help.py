@@ -20,7 +20,7 @@ SUBCOMMANDS = [
     for panel in PANELS
     for command in (*panel.registered_commands, *panel.registered_groups)
 ]
-OTHERS = ("claims", "readings", "registration")
+OTHERS = ("claims", "beyond-claims", "readings", "registration")
 """Files beside the configurations that are none."""
 
 WITHOUT_DETECTION = {"_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
