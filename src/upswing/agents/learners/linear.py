@@ -15,7 +15,7 @@ from upswing.agents.learners import Array, Beginning, update_of, values_of
 from upswing.agents.learners.backpropagation.product import product
 from upswing.agents.policy import Q
 from upswing.agents.traces import add_gradient, add_gradient_of, weights_of
-from upswing.physics.jit import with_item
+from upswing.physics.jit import compiled, with_item
 from upswing.study import architecture
 
 
@@ -72,6 +72,13 @@ def _weights(linear: Linear) -> tuple[Array, ...]:
     return (linear.weights.reshape(-1),)
 
 
+@compiled
+def activate_all(encoder: Any, states: Array, features: Array) -> None:
+    """Write the features of ``states``, (states, 2) [rad, rad/s], into ``features``, (states, tiles)."""
+    for i in range(states.shape[0]):
+        activate(encoder, Point(0, states[i, 0], states[i, 1]), features[i])
+
+
 class LinearLearner:
     """The weights outside the loop."""
 
@@ -89,8 +96,8 @@ class LinearLearner:
     def action_values(self, places: Sequence[Point]) -> Array:
         """The weights times the features of every place."""
         features = np.empty((len(places), self.stepped.encoder.tiles))
-        for place, row in zip(places, features, strict=True):
-            activate(self.stepped.encoder, place, row)
+        states = np.array([(place.angle, place.angular_velocity) for place in places])
+        activate_all(self.stepped.encoder, states, features)
         values: Array = features @ self.stepped.weights.T
         return values
 
