@@ -32,12 +32,6 @@ Positional = Annotated[
 """The folder as the last argument, which the rules of the workflow give."""
 
 
-CONFIG = Path("config/config.yaml")
-SWEEPS = Path("config/readings.yaml")
-TEMPLATES = Path("report")
-"""What is read where nothing is given: in the working folder, or else what comes with the package."""
-
-
 def or_along(context: typer.Context, param: typer.CallbackParam, path: Path) -> Path:
     """What was given, or else what the working folder has, or else what comes with the package."""
     from upswing.study.project_files import along  # what is imported for it has its cost: only now

@@ -22,14 +22,12 @@ from upswing.study import paths
 from upswing.study.claims import file_of_claims, load_claims
 from upswing.study.config import Study
 from upswing.study.paths import DECISIVE, READINGS, ROBUST, SELECTION
+from upswing.study.places import CLAIMS, SWEEPS
 from upswing.study.sweeps import load_sweeps
 
 SELECTED = ("reward_unit", "biases", "initial_weights", "learning_rate")
 CAUSES, LIKELIEST = 3, 8
 """Number of readings shown: of those that decide a claim, and of the most likely ones."""
-
-SWEEPS, CLAIMS = Path("config/readings.yaml"), Path("config/claims.yaml")
-"""What is asked of the readings, beside the folder of templates."""
 
 Row = dict[str, Any]
 

@@ -20,7 +20,7 @@ from upswing.study.paths import (
     finalists_of_sweep,
     group_of_sweep,
 )
-from upswing.study.project_files import TEMPLATES
+from upswing.study.places import TEMPLATES
 from upswing.study.sweeps import CHOOSING, Group, Sweep, content_of, groups
 
 ASKING_FOR_READINGS = ("readings", "with_readings")

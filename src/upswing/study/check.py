@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from upswing.study.claims import OF_THE_THESIS, Claim, file_of_claims, load_claims
+from upswing.study import places
+from upswing.study.claims import Claim, file_of_claims, load_claims
 from upswing.study.config import Study, from_snakemake, load, validated
 from upswing.study.errors import BadInput
 from upswing.study.own_files import CLAIMS, placed
@@ -44,7 +45,7 @@ def checked(
     )
     if study is not None:
         _tried(problems, lambda: check_results(study.results, source))
-    judged = (claims or along(OF_THE_THESIS)) if study is None else file_of_claims(study, claims)
+    judged = (claims or along(places.CLAIMS)) if study is None else file_of_claims(study, claims)
     if judged.exists():
         _tried(problems, lambda: load_claims(judged, study))
     if sweeps.exists() and study is not None:

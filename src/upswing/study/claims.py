@@ -22,12 +22,10 @@ from upswing.study.errors import BadInput, explained, near, problem
 from upswing.study.known_cells import check_cells
 from upswing.study.names import CellName, ClaimName, Name, Text
 from upswing.study.physical import PendulumOptions, TileOptions
+from upswing.study.places import CLAIMS
 from upswing.study.project_files import along
 from upswing.study.values import Strict, listed
 from upswing.study.yaml_file import read_yaml
-
-OF_THE_THESIS = Path("config/claims.yaml")
-"""The claims of a study that names none of its own."""
 
 
 def _shown_in(figure: Any) -> Any:
@@ -96,7 +94,7 @@ def file_of_claims(study: Study, given: Path | None = None, otherwise: Path | No
         otherwise: the file where there is neither; without it, the thesis's.
     """
     own = Path(study.claims) if study.claims else None
-    return given or own or otherwise or along(OF_THE_THESIS)
+    return given or own or otherwise or along(CLAIMS)
 
 
 def load_claims(path: Path, study: Study | None = None) -> Mapping[str, Claim]:

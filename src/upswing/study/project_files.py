@@ -8,18 +8,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from upswing.study.errors import BadInput, shown
+from upswing.study.places import CLAIMS, CONFIG, SWEEPS, TEMPLATES
 
 PROJECT = Path(__file__).parents[1] / "project"
 """Where they come along, laid out as in a checkout."""
 
 SNAKEFILE = str((PROJECT / "Snakefile").resolve())
 """The workflow's file, for a Snakefile of one's own that includes it or has it as a module."""
-
-CONFIG = Path("config/config.yaml")
-CLAIMS = Path("config/claims.yaml")
-SWEEPS = Path("config/readings.yaml")
-TEMPLATES = Path("report")
-"""What is read besides results, from the folder of a study or of the project."""
 
 
 class Files(NamedTuple):

@@ -12,6 +12,9 @@ from upswing.study.config import load
 
 HEAVY = {"torch", "rerun", "matplotlib", "pandas", "pyarrow", "scipy", "numba", "rich"}
 
+LIGHT = {"upswing.study", "upswing.study.places"}
+"""Where files are, which help says; they import nothing."""
+
 PROGRAM = """
 import json, os, sys
 from upswing.cli.main import main
@@ -40,7 +43,7 @@ def test_help_needs_the_command_line_and_nothing_else(words):
     code, names = imported(*words)
     assert code == 0
     assert names & (HEAVY | {"numpy", "pydantic", "yaml"}) == set()
-    assert ours(names) == set()
+    assert ours(names) <= LIGHT
 
 
 @pytest.mark.parametrize("name", ["verdicts", "train", "screenshots", "history", "compare"])
@@ -48,14 +51,14 @@ def test_the_help_of_a_subcommand_needs_nothing_that_it_runs(name):
     code, names = imported(name, "--help")
     assert code == 0
     assert names & (HEAVY | {"numpy"}) == set()
-    assert ours(names) == set()
+    assert ours(names) <= LIGHT
 
 
 def test_a_mistake_needs_nothing_of_ours():
     code, names = imported("figur")
     assert code == 2
     assert names & (HEAVY | {"numpy"}) == set()
-    assert ours(names) == set()
+    assert ours(names) <= LIGHT
 
 
 def test_the_names_of_the_figures_need_no_figure():

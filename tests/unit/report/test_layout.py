@@ -4,7 +4,8 @@ from itertools import pairwise
 
 import pytest
 
-from upswing.study.claims import OF_THE_THESIS, load_claims
+from upswing.study.claims import load_claims
+from upswing.study.places import CLAIMS
 
 WIDTHS = (320, 390, 1280, 1440)
 
@@ -144,7 +145,7 @@ def test_the_first_screen_says_what_was_found(opening, thesis_page, width, heigh
     for one in page.locator("ol.findings li").all():
         assert one.locator("a[href^='#C']").count() == 1
         assert one.locator(".certainty").inner_text()
-    assert page.locator(".strip-of-verdicts a").count() == len(load_claims(OF_THE_THESIS))
+    assert page.locator(".strip-of-verdicts a").count() == len(load_claims(CLAIMS))
 
 
 def test_the_title_promises_what_the_tables_have(opening, thesis_page, small_page):

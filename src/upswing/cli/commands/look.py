@@ -5,7 +5,6 @@ from typing import Annotated, Any
 import typer
 
 from upswing.cli.options import (
-    TEMPLATES,
     AskedStudy,
     Claims,
     Named,
@@ -16,6 +15,7 @@ from upswing.cli.options import (
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
+from upswing.study.places import TEMPLATES
 
 panel = Panel("Look")
 

@@ -7,8 +7,6 @@ from typing import Annotated
 import typer
 
 from upswing.cli.options import (
-    SWEEPS,
-    TEMPLATES,
     Claims,
     Named,
     Positional,
@@ -19,6 +17,7 @@ from upswing.cli.options import (
     results_folder,
 )
 from upswing.cli.panel import Panel
+from upswing.study.places import SWEEPS, TEMPLATES
 
 panel = Panel("Maintain")
 

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import CONFIG, SWEEPS, Claims, Sweeps, or_along
+from upswing.cli.options import Claims, Sweeps, or_along
 from upswing.cli.panel import Panel
+from upswing.study.places import CONFIG, SWEEPS
 
 panel = Panel("Run")
 

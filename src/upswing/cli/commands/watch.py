@@ -6,8 +6,9 @@ from typing import Annotated
 
 import typer
 
-from upswing.cli.options import CONFIG, Named, results_folder
+from upswing.cli.options import Named, results_folder
 from upswing.cli.panel import Panel
+from upswing.study.places import CONFIG
 
 panel = Panel("Look")
 

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from upswing.cli.options import (
-    SWEEPS,
-    TEMPLATES,
     AskedStudy,
     Claims,
     Named,
@@ -20,6 +18,7 @@ from upswing.cli.options import (
     results_folder,
 )
 from upswing.cli.panel import Job, Panel
+from upswing.study.places import SWEEPS, TEMPLATES
 
 if TYPE_CHECKING:
     from upswing.study.config import Study
