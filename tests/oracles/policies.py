@@ -48,9 +48,12 @@ def reinforce(kind, seed, steps, alpha, rate, discount, horizon):
     return taken, preferences, v
 
 
-def ase_ace(seed, steps, box_of, boxes):
-    """The two elements with the numbers of 1983, balancing: α = 1000, β = 0.5, δ = 0.9, λ = 0.8, σ = 0.01."""
-    world, taken = World("balancing", seed), []
+def ase_ace(seed, steps, box_of, boxes, kind="balancing", told_reward=False):
+    """The two elements with the numbers of 1983: α = 1000, β = 0.5, δ = 0.9, λ = 0.8, σ = 0.01.
+
+    They learn from failures, or (``told_reward``) from the reward of the thesis.
+    """
+    world, taken = World(kind, seed), []
     w, v, e, x_bar = np.zeros((4, boxes))
     p_before = None
     for _ in range(steps):
@@ -61,11 +64,12 @@ def ase_ace(seed, steps, box_of, boxes):
         y = 1 if w @ x - 0.01 * norm.ppf(world.actions.random()) > 0 else -1
         taken.append(0 if y < 0 else 2)
         e, x_bar = e + (1 - 0.9) * y * x, x_bar + (1 - 0.8) * x
-        _, _, fell = world.act(taken[-1])
+        reward, _, fell = world.act(taken[-1])
         x_next = np.zeros(boxes)
         x_next[box_of(world.state)] = 1
         p = 0 if fell else v @ x_next
-        r_hat = (-1 if fell else 0) + 0.95 * p - p_before
+        r = reward if told_reward else -1 if fell else 0
+        r_hat = r + 0.95 * p - p_before
         w, v = w + 1000 * r_hat * e, v + 0.5 * r_hat * x_bar
         e, x_bar, p_before = (0 * e, 0 * x_bar, None) if fell else (0.9 * e, 0.8 * x_bar, p)
     return taken, w, v

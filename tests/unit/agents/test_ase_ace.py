@@ -26,20 +26,29 @@ def elements_spec(kind="balancing", steps=3_000, coding="boxes", **options):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_as_printed(seed):
-    spec = elements_spec()
+@pytest.mark.parametrize(
+    ("seed", "kind", "options"),
+    [
+        *((seed, "balancing", {}) for seed in (0, 1, 2)),
+        (0, "balancing", {"reinforcement": "reward"}),
+        (0, "full-control", {"reinforcement": "reward"}),
+    ],
+)
+def test_as_printed(seed, kind, options):
+    spec = elements_spec(kind, **options)
     encoder = prepare(spec, seed).encoder
 
     def box_of(state):
         return locate(encoder, state.angle, state.angular_velocity).tiles[0]
 
     trajectory, learned = run(spec, seed)
-    taken, w, v = policies.ase_ace(seed, spec.task.steps, box_of, encoder.tiles)
+    taken, w, v = policies.ase_ace(
+        seed, spec.task.steps, box_of, encoder.tiles, kind, told_reward=bool(options)
+    )
     assert trajectory.action.tolist() == taken
     np.testing.assert_allclose(UNIT * learned["search"][0], w, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(learned["critic"][0], v, rtol=1e-9, atol=1e-12)
-    assert trajectory.reset.sum() >= 1
+    assert kind == "full-control" or trajectory.reset.sum() >= 1
     assert np.abs(w).max() > 1
 
 
