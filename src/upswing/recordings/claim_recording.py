@@ -28,7 +28,7 @@ from upswing.runs.recording.layout import whole_run
 from upswing.runs.recording.sizes import HALF_A_CART, unit_of, view_of
 from upswing.runs.results import Results
 from upswing.runs.simulation import body_of_run
-from upswing.study.claim_parts import weakest
+from upswing.study.claim_parts import weakest, words_of
 from upswing.study.claims import Claim
 from upswing.study.ids import seed_of
 from upswing.study.task import Task
@@ -107,6 +107,10 @@ def _layout(runs: Sequence[str], task: Task) -> rrb.Blueprint:
 def _words(results: Results, name: str, claim: Claim, three: pd.DataFrame) -> str:
     """The claim, its verdict, and why these are its runs, in Markdown."""
     evidence = judge(results, name, claim)
+
+    def said(verdict: str) -> str:
+        return words_of(verdict, could_be_better=False, own=bool(results.study.claims))
+
     verdict = weakest([row.verdict for row in evidence])
     task, cell = results.task(str(claim.cell)), str(claim.cell)
     order = [measure for measure in task.order_of_runs if measure != "seed"]
@@ -129,13 +133,13 @@ def _words(results: Results, name: str, claim: Claim, three: pd.DataFrame) -> st
     check = f"\n\nIt is a check and no evidence: {claim.check}." if claim.check else ""
     note = f"\n\n{claim.note}" if claim.note else ""
     return f"""\
-### {name} ({claim.section})
+### {name}{f" ({claim.section})" if claim.section else ""}
 
 {claim.statement}
 
-**Verdict: {verdict}.** {"It is that of its weakest part." if len(evidence) > 1 else ""}
+**Verdict: {said(verdict)}.** {"It is that of its weakest part." if len(evidence) > 1 else ""}
 
-{chr(10).join(map(_line, evidence))}{check}{note}
+{chr(10).join(_line(row, said(row.verdict)) for row in evidence)}{check}{note}
 
 **Why these runs**: the worst, the median and the best of {counted:,} runs of `{cell}`{left_out}, ordered
 by {by}.
@@ -150,13 +154,13 @@ changed there.
 """
 
 
-def _line(row: Evidence) -> str:
+def _line(row: Evidence, verdict: str) -> str:
     """A part of a claim: what is measured, how it came out, and what that comes to."""
     words = f"- {row.says}: "
     if row.estimate == row.estimate:
         words += f"**{row.estimate:.3g}**, 95 % interval {row.low:.3g} to {row.high:.3g}; "
     cells = f" ({row.cells.replace(' : ', ' and ')})" if row.cells else ""
-    return f"{words}asked for {row.threshold}: **{row.verdict}**{cells}"
+    return f"{words}asked for {row.threshold}: **{verdict}**{cells}"
 
 
 def _length(task: Task) -> int:

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from upswing.analysis.history.entry import Changed, Listed
 from upswing.analysis.history.read import listed
-from upswing.study.claim_parts import NOT_HERE
+from upswing.study.claim_parts import NOT_HERE, words_of
 
 MOST = 10
 """Largest number of entries that the page shows, the newest."""
@@ -33,12 +33,13 @@ class ShownEntry(NamedTuple):
     counts: list[str]
 
 
-def history(results: Path, *, judges: bool = True) -> dict[str, Any]:
+def history(results: Path, *, judges: bool = True, own: bool = False) -> dict[str, Any]:
     """The newest entries, the newest first; how many are older; of each claim a verdict for each entry.
 
     Args:
         results: the folder of results.
         judges: whether its page has verdicts; without, no claim is in it.
+        own: whether the claims are the study's own and not the thesis's.
 
     Raises:
         BadInput: the list of entries is not what was written.
@@ -49,22 +50,27 @@ def history(results: Path, *, judges: bool = True) -> dict[str, Any]:
         claim for entry in shown for claim, word in entry.verdicts.items() if word != NOT_HERE
     )
     return {
-        "entries": [_shown(entry) for entry in shown],
+        "entries": [_shown(entry, own) for entry in shown],
         "older": len(every) - len(shown),
         "judges": judges,
         "claims": [
-            (claim, [_verdict(entry, claim) for entry in shown]) for claim in judged if judges
+            (claim, [_verdict(entry, claim, own) for entry in shown]) for claim in judged if judges
         ],
     }
 
 
-def _verdict(entry: Listed, claim: str) -> tuple[str, str]:
-    """The verdict of an entry, and the sign for it; both empty where it was not judged."""
+def _verdict(entry: Listed, claim: str, own: bool) -> tuple[str, str, str]:
+    """The verdict of an entry, its sign, and how it is said; all empty where it was not judged."""
     word = entry.verdicts.get(claim, NOT_HERE)
-    return ("", "") if word == NOT_HERE else (word, SIGNS.get(word, "?"))
+    return ("", "", "") if word == NOT_HERE else (word, SIGNS.get(word, "?"), _said(word, own))
 
 
-def _shown(entry: Listed) -> ShownEntry:
+def _said(verdict: str, own: bool) -> str:
+    """A stored verdict as it is shown."""
+    return words_of(verdict, False, own)
+
+
+def _shown(entry: Listed, own: bool) -> ShownEntry:
     runs = entry.runs
     numbers = (
         (runs.new, "new runs"),
@@ -83,6 +89,9 @@ def _shown(entry: Listed) -> ShownEntry:
         first=entry.before is None,
         changed=entry.configuration[:MOST_KEYS],
         more_keys=max(len(entry.configuration) - MOST_KEYS, 0),
-        verdicts=entry.changed_verdicts,
+        verdicts=tuple(
+            Changed(what=row.what, before=_said(row.before, own), after=_said(row.after, own))
+            for row in entry.changed_verdicts
+        ),
         counts=[f"{number:,} {words}" for number, words in numbers if number],
     )

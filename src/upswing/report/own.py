@@ -23,7 +23,8 @@ Row = dict[str, Any]
 FEW = 3
 """So many names stand in a title; more are counted."""
 
-OF_VERDICTS = ("over-readings", "at-least-partly", "at-threshold", "fragile", "check")
+OVER_READINGS = "over-readings"
+OF_VERDICTS = (OVER_READINGS, "at-least-partly", "at-threshold", "fragile", "check")
 OF_FALLS = ("balancing", "balances")
 OF_UPRIGHT = ("full-control", "stands")
 """Words that say nothing where there are no verdicts, or no such task."""
@@ -125,7 +126,7 @@ def succeeding(row: Row, study: Study) -> int:
 
 
 def own_words(
-    words: Mapping[str, Word], study: Study, lengths: Mapping[str, str], step: str
+    words: Mapping[str, Word], study: Study, lengths: Mapping[str, str], step: str, judged: bool
 ) -> dict[str, Word]:
     """The glossary of a study of one's own: lengths are its own, and what it has not is left out.
 
@@ -134,11 +135,12 @@ def own_words(
         study: the study.
         lengths: how long full control is judged (``pendulums.lengths``).
         step: how long a step is.
+        judged: whether the page shows verdicts; readings are asked of the thesis's claims alone.
     """
     used = narrowed(study)
     judged_by = {task.judged_by for task in used.tasks.values()}
     gone = {
-        *OF_VERDICTS,
+        *((OVER_READINGS,) if judged else OF_VERDICTS),
         *(() if "falls" in judged_by else OF_FALLS),
         *(() if "upright" in judged_by else OF_UPRIGHT),
         *(("control",) if all(one.learns for one in used.architectures.values()) else ()),

@@ -1,5 +1,6 @@
 """The page: what each part of the template is given."""
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,6 +20,7 @@ from upswing.report.citation import FILE as CITATION
 from upswing.report.citation import citation
 from upswing.report.command import commands
 from upswing.report.cost import OF_A_BENCHMARK, OF_AN_EDIT, OF_GROWTH, costs, totals
+from upswing.report.deviations import deviations
 from upswing.report.exploratory import exploratory
 from upswing.report.findings import findings
 from upswing.report.glossary import glossary
@@ -63,7 +65,6 @@ from upswing.study.paths import (
     RUNS_CSV,
 )
 from upswing.study.readings import Readings
-from upswing.study.yaml_file import read_yaml
 
 Row = dict[str, Any]
 
@@ -164,7 +165,9 @@ def page_of(
         "headline": own_headline(study, told)
         if own
         else headline(by_name, found, len(empirical), len(ours)),
-        "glossary": own_words(named, study, moves["lengths"], moves["length_of_a_step"])
+        "glossary": own_words(
+            named, study, moves["lengths"], moves["length_of_a_step"], bool(verdicts)
+        )
         if own
         else named,
         "outcomes": outcomes(table, study) if own and study.judges else [],
@@ -193,10 +196,10 @@ def page_of(
         ],
         "own_figures": [name for name in study.figure_names if name not in figures.NAMES],
         "beyond": _beyond(results, chapter_at),
-        "readings": _readings(study.readings),
+        "readings": _readings(study.readings, _touched(matrix)),
         "swept": swept(results, study),
-        "deviations": read_yaml(templates / "deviations.yaml")["deviations"],
-        "history": history(results, judges=bool(verdicts)),
+        "deviations": deviations(templates, own),
+        "history": history(results, judges=bool(verdicts), own=bool(study.claims)),
         "costs": costs(results),
         "totals": totals(results, sum(row["seconds"] for row in runs if row["run"] in ours)),
         "benchmark": _optional(results / BENCHMARK, OF_A_BENCHMARK, "`make bench` makes it"),
@@ -256,11 +259,24 @@ def _beyond(results: Path, at: str) -> Row:
     return found
 
 
-def _readings(readings: Readings) -> list[Row]:
-    """Every reading: its number, question, options and the chosen one."""
+def _touched(matrix: Matrix) -> set[str]:
+    """The names of the readings that some run depends on."""
+    return {
+        name
+        for spec in matrix.cells.values()
+        for name in spec.readings.touching(
+            spec.architecture.learner, spec.task.kind, spec.architecture.is_modular
+        )
+    }
+
+
+def _readings(readings: Readings, touched: Collection[str]) -> list[Row]:
+    """Every reading that is ``touched``: its number, question, options and the chosen one."""
     rows = []
     properties = Readings.model_json_schema()["properties"]
     for name, field in properties.items():
+        if name not in touched:
+            continue
         number, question = field["description"].split(": ", 1)
         options = field.get("enum") or [field["const"]]
         rows.append(

@@ -13,7 +13,7 @@ from upswing.figures.phases import held
 from upswing.physics import tasks as kinds
 from upswing.physics.actions import listed, pushes, signed
 from upswing.physics.braking import highest_stoppable_speed
-from upswing.physics.pendulum import Pendulum, body_of
+from upswing.physics.pendulum import Pendulum, ThesisActions, body_of
 from upswing.runs.metrics import STABLE_STEPS
 from upswing.study.config import Study, narrowed, pendulum_of_bound
 from upswing.study.physical import PendulumOptions, StartOptions, TileOptions, TrackOptions
@@ -89,7 +89,7 @@ def track_in_words(track: TrackOptions) -> str:
     """How far the cart can go, and what happens there."""
     if track.limit is None:
         return "no end"
-    happens = "a run is reset" if track.at_end == "falls" else "the cart stops"
+    happens = "a run is reset" if track.at_end == "falls" else "it stops dead"
     return f"±{track.limit:g} m, where {happens}"
 
 
@@ -136,10 +136,20 @@ def own_rewards(study: Study) -> list[Cut]:
     return found
 
 
+THREE_ACTIONS = (
+    "three arrows at the cart are the three actions: accelerate by minus 10, by 0 or by plus 10 metres "
+    "per second squared"
+)
+"""What the drawing of the cart says of its actions to those who do not see it."""
+
+
 def drawn_for(svg: str, shown: Sequence[Shown]) -> str:
     """A drawing of the thesis's cart with the strongest pushes of these pendulums."""
     pairs = {(one.body.accelerations[0], one.body.accelerations[-1]) for one in shown}
     left, right = (f"{signed(one)} m/s²" for one in pairs.pop()) if len(pairs) == 1 else "−+"
+    if any(tuple(one.body.accelerations) != ThesisActions() for one in shown):
+        strongest = f"arrows at the cart are its strongest actions, {left} and {right}"
+        svg = svg.replace(THREE_ACTIONS, strongest)
     return svg.replace(">−10 m/s²<", f">{left}<").replace(">+10 m/s²<", f">{right}<")
 
 
@@ -181,6 +191,7 @@ def system(whole: Study, templates: Path) -> dict[str, Any]:
     found = pendulums(study)
     sole = {one.accelerations for one in found}
     kinds_of = {task.judged_by for task in study.tasks.values()}
+    usual = {task.judged_by for task in study.tasks.values() if task.start == StartOptions()}
     drawings = {path.stem: path for path in sorted((templates / "drawings").glob("*.svg"))}
     return {
         "pendulums": found,
@@ -196,7 +207,12 @@ def system(whole: Study, templates: Path) -> dict[str, Any]:
         "architectures": study.architectures,
         "has_falls": "falls" in kinds_of,
         "has_upright": "upright" in kinds_of,
+        "usual_starts": usual,
         "own_starts": own_starts(study),
+        "own_rules": any(
+            one.epsilon is not None or one.discount is not None
+            for one in study.architectures.values()
+        ),
         "drawings": {
             name: Markup(drawn_for(path.read_text("utf-8"), found))  # noqa: S704  a file of ours
             for name, path in drawings.items()

@@ -12,6 +12,7 @@ from upswing.analysis.robustness.tables import OF_A_SELECTION
 from upswing.report import words
 from upswing.report.animation import drawn, stretches
 from upswing.report.chapter import chapter
+from upswing.report.deviations import deviations
 from upswing.report.glossary import as_sections, glossary, in_a_paragraph
 from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
@@ -20,7 +21,6 @@ from upswing.runs.results import Results
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
 from upswing.study.paths import ROBUST, SELECTION, VERDICTS, figure
-from upswing.study.yaml_file import read_yaml
 
 Row = dict[str, Any]
 
@@ -188,8 +188,9 @@ def renewed(text: str, page: Path, templates: Path) -> str:
 
 def _part(name: str, templates: Path) -> str:
     if name == "deviations":
-        deviations = read_yaml(templates / "deviations.yaml")["deviations"]
-        return "\n".join(f"{number}. {text}" for number, text in enumerate(deviations, 1))
+        return "\n".join(
+            f"{number}. {text}" for number, text in enumerate(deviations(templates), 1)
+        )
     if name in GLOSSARY:
         return GLOSSARY[name](glossary(templates))
     if name == "expected":

@@ -33,7 +33,7 @@ def placed(source: str, content: Content, folder: Path, problems: list[str]) -> 
             problems.append(problem(source, CLAIMS, name, why))
             del content[CLAIMS]
         else:
-            content[CLAIMS] = path.as_posix()
+            content[CLAIMS] = _from_here(path)
     if isinstance(named := content.get(FIGURES), list):
         content[FIGURES] = list(_figures(source, named, folder, problems))
     return content
@@ -61,7 +61,7 @@ def _figures(source: str, named: list[Any], folder: Path, problems: list[str]) -
             if why := _why_not(own[name], folder):
                 problems.append(problem(source, place, name, f"{own[name]}: {why}"))
             else:
-                yield {"name": name, "file": own[name].as_posix()}
+                yield {"name": name, "file": _from_here(own[name])}
         elif name in project:
             yield name
         else:
@@ -69,6 +69,12 @@ def _figures(source: str, named: list[Any], folder: Path, problems: list[str]) -
             problems.append(
                 problem(source, place, name, f"{right}; {near(name, [*own, *project])}")
             )
+
+
+def _from_here(path: Path) -> str:
+    """A file's path from the working folder if it lies below it: Snakemake names files from the root."""
+    here = Path.cwd()
+    return (path.relative_to(here) if path.is_relative_to(here) else path).as_posix()
 
 
 def own_figures(folder: Path) -> dict[str, Path]:

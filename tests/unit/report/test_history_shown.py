@@ -37,7 +37,10 @@ def test_the_newest_comes_first_with_what_changed(folder):
 def test_each_claim_has_a_verdict_for_each_entry(folder):
     claims = dict(history(folder)["claims"])
     newest, oldest = claims["C16"]
-    assert oldest == ("reproduced", "✓")
+    assert oldest == ("reproduced", "✓", "reproduced")
+    assert dict(history(folder, own=True)["claims"])["C16"][1] == ("reproduced", "✓", "holds")
+    before = history(folder, own=True)["entries"][0].verdicts[0].before
+    assert before == "holds"
     assert newest[0] == entries(folder)[1].verdicts["C16"] != "reproduced"
     judged = {claim for entry in entries(folder) for claim, word in entry.verdicts.items() if word != "not in this study"}  # fmt: skip
     assert set(claims) == judged

@@ -101,11 +101,12 @@ def test_another_pendulum_for_all_tasks_stands_in_the_text():
     said = text_of(rendered("system", OWN))
     for words_ in (
         "In each step of 10 ms", "accelerates by −20, −10, 0, +10 or +20 m/s²", "length l = 0.4 m",
-        "The pendulum is not the thesis’s: a rod of mass m = 0.1 kg", "The cart can go to ±2 m, where the cart stops.",
+        "The pendulum is not the thesis’s: a rod of mass m = 0.1 kg", "The cart can go to ±2 m, where it stops dead.",
         "dt = 0.01 s", "in strong the angle, up to ±180°, is cut into 8 parts, and the velocity, up to ±18 rad/s, into 20.",
     ):  # fmt: skip
         assert words_ in said, (words_, said)
     drawing = str(system(OWN, TEMPLATES)["drawings"]["task"])
+    assert "its strongest actions, −20 m/s² and +20 m/s²" in drawing
     assert (">+20 m/s²<" in drawing, ">−20 m/s²<" in drawing, "10 m/s²" in drawing) == (
         True,
         True,
@@ -124,7 +125,7 @@ def test_several_stand_in_a_table_a_row_for_each():
     assert [one.is_thesis for one in found] == [True, False, False, False]
     assert [one.held for one in found] == ["±134°", "±116°", "±134°", "123° or −163°"]
     assert [one.track for one in found] == [
-        "no end", "±2 m, where the cart stops", "±1.5 m, where a run is reset", "no end",
+        "no end", "±2 m, where it stops dead", "±1.5 m, where a run is reset", "no end",
     ]  # fmt: skip
     assert [one.stoppable for one in found] == [highest_stoppable_speed(one.body) for one in found]
     html = rendered("system", BOTH)
