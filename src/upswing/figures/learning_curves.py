@@ -89,12 +89,14 @@ def draw(results: "Results") -> "Drawing":
             panels.steps_axis(panel, [results.task(cell) for cell in shown], 4)
             panels.label_ends(panel, ends)
     what = ". ".join(seen)
-    see = f" What to see: where the medians on the left end. {what}." if what else ""
+    where = " on the left" if with_one else ""
+    see = f" What to see: where the medians{where} end. {what}." if what else ""
     right = " Right: all of them with α = 1." if with_one else ""
     first = " Of several tasks of a kind, only the first is shown." if others else ""
     caption = (
-        "Medians over the runs, with the band between the quartiles; modular ones are dashed. Left: "
-        "each architecture with the step size that succeeds most often (the first, if several do)."
+        "Medians over the runs, with the band between the quartiles; modular ones are dashed. "
+        f"{'Left: each' if with_one else 'Each'} architecture with the step size that succeeds most "
+        "often (the first, if several do)."
         f"{right}{first}{see}"
     )
     alt = f"Where the medians end with the best α. {what}." if what else ""

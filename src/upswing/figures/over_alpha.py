@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
 
 from upswing.analysis.colours import colour, name_of
 from upswing.figures.labels import label_ends
@@ -13,6 +14,9 @@ from upswing.study.task import Task
 
 APART = 1.1
 """How far architectures stand apart, as a factor of α."""
+
+DECADES = 99
+"""Below so large a ratio of step sizes each of them is marked, and above it powers of ten."""
 
 CRITERION = {"falls": "without a fall in the last fifth", "upright": "that stand at the end"}
 """What a success is, by how a task is judged."""
@@ -45,6 +49,10 @@ def success_over_alpha(
         ends.append((found[-1].value, name_of(architecture), shade))
     axes.set_xscale("log")
     axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    drawn = sorted({alpha for cells in cells_of.values() for alpha in cells})
+    if len(drawn) > 1 and drawn[-1] < DECADES * drawn[0]:
+        axes.set_xticks(drawn)  # a power of ten or two would be all that is marked
     axes.set(ylim=(-4, 104), yticks=(0, 25, 50, 75, 100), xlabel="step size α")
     label_ends(axes, ends)
 

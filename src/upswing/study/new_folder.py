@@ -1,5 +1,6 @@
 """A folder for studies of one's own, without a checkout: the rules come with the installed package."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -21,11 +22,40 @@ rule default:
         rules.all.input,
 """
 
-COPIED = ("config", "workflow/profiles")
+README = """\
+# Studies with upswing
+
+    snakemake --cores all --configfile config/smoke.yaml   # a short study: does it work?
+    snakemake --cores all                                  # the study of the thesis
+    upswing check config/mine.yaml                         # what is wrong, and what it comes to
+    snakemake --cores all --configfile config/mine.yaml    # makes it
+    upswing browse --web --results results/mine            # opens its page and its recordings
+
+Begin with a copy of `config/template.yaml`. Every key is explained in `config/README.md`. A study's
+page is `report/index.html` in its folder of results.
+"""
+
+CONFIGURATIONS = (
+    "README.md", "accelerations.yaml", "beyond-claims.yaml", "beyond.yaml", "claims.yaml", "config.yaml",
+    "poles.yaml", "readings.yaml", "registration.yaml", "schema.json", "smoke.yaml", "template.yaml",
+    "time-steps.yaml",
+)  # fmt: skip
+"""The project's own files of ``config``: a checkout may hold somebody's besides."""
+
+COPIED = (*(f"config/{name}" for name in CONFIGURATIONS), "workflow/profiles")
 """What belongs to a study: its configuration with its claims, and how Snakemake runs it."""
 
 TEMPLATES = ("report", "CITATION.cff")
 """What belongs to the page. A copy of one's own is used instead of the package's."""
+
+COMMANDS = (
+    (re.compile(r"\.venv/bin/upswing"), "upswing"),
+    (re.compile(r"make study CONFIG=(\S+\.yaml)"), r"snakemake --cores all --configfile \1"),
+    (re.compile(r"make (beyond|smoke)\b"), r"snakemake --cores all --configfile config/\1.yaml"),
+    (re.compile(r"make reproduce"), "snakemake --cores all"),
+    (re.compile(r"make readings"), "snakemake --cores all with_readings"),
+)  # fmt: skip
+"""Commands of a checkout, and what they are where there is no Makefile."""
 
 
 def write_folder(folder: Path, templates: bool = False) -> list[str]:
@@ -51,8 +81,18 @@ def write_folder(folder: Path, templates: bool = False) -> list[str]:
             source, place = PROJECT / name, beside / name
             place.parent.mkdir(parents=True, exist_ok=True)
             (shutil.copytree if source.is_dir() else shutil.copy)(source, place)
+        for path in (p for p in beside.rglob("*") if p.suffix in (".yaml", ".md")):
+            path.write_text(without_make(path.read_text("utf-8")), "utf-8")
         (beside / "Snakefile").write_text(SNAKEFILE, "utf-8")
+        (beside / "README.md").write_text(README, "utf-8")
         beside.replace(folder)
     finally:
         shutil.rmtree(beside, ignore_errors=True)
-    return ["Snakefile", *copied]
+    return sorted({"Snakefile", "README.md", *(name.split("/")[0] for name in copied)})
+
+
+def without_make(text: str) -> str:
+    """A text in which the commands of a checkout are those of a folder that has no Makefile."""
+    for command, otherwise in COMMANDS:
+        text = command.sub(otherwise, text)
+    return text

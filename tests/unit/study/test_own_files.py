@@ -78,6 +78,21 @@ def test_files_are_named_from_the_configurations_own_folder(folder, monkeypatch)
         assert found.figure_names == ("mean-rewards",)
 
 
+def test_files_below_the_working_folder_are_named_from_it_however_the_configuration_was(
+    folder, monkeypatch
+):
+    own = {"claims": "own/claims.yaml", "figures": ["mean-rewards"]}
+    path = study(folder, **own)
+    monkeypatch.chdir(folder)
+    # Snakemake names its configuration files from the root.
+    found = from_snakemake([str(path)], {**STUDY, **own})
+    assert found == load(Path("config/mine.yaml"))
+    assert found.claims == "config/own/claims.yaml"
+    assert str(folder) not in found.model_dump_json()
+    monkeypatch.chdir("/")
+    assert from_snakemake([str(path)], {**STUDY, **own}).claims.endswith("config/own/claims.yaml")
+
+
 def test_who_extends_a_configuration_has_its_files_where_they_are(folder):
     study(folder, claims="own/claims.yaml", figures=["mean-rewards"])
     child = written(

@@ -51,8 +51,8 @@ def print_verdicts(
         [row for row in found if bool(row["check"]) == is_check] for is_check in (0, 1)
     )
     counts = "; ".join(
-        f"{len(rows)} {what}: {_counted(rows, own)}"
-        for what, rows in (("empirical claims", claims), ("checks", checks))
+        f"{len(rows)} {what}{'' if len(rows) == 1 else 's'}: {_counted(rows, own)}"
+        for what, rows in (("empirical claim", claims), ("check", checks))
         if rows
     )
     more = "" if details else "; --details says what was measured"
