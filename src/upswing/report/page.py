@@ -29,6 +29,7 @@ from upswing.report.history_shown import history
 from upswing.report.interactive import embedded, endings, shown_figures
 from upswing.report.judged import counts, judged, point_at_own
 from upswing.report.kept import kept
+from upswing.report.lessons import teach
 from upswing.report.own import (
     counted,
     is_chapter,
@@ -195,7 +196,7 @@ def page_of(
             one for one in drawn_figures if one["number"] and not (own and one["missing"])
         ],
         "own_figures": [name for name in study.figure_names if name not in figures.NAMES],
-        "beyond": _beyond(results, chapter_at),
+        "beyond": _beyond(results, templates, chapter_at),
         "readings": _readings(study.readings, _touched(matrix)),
         "swept": swept(results, study),
         "deviations": deviations(templates, own),
@@ -247,10 +248,11 @@ def _animation(results: Path) -> str:
     return data_of(drawn(panels).encode()) if panels else ""
 
 
-def _beyond(results: Path, at: str) -> Row:
+def _beyond(results: Path, templates: Path, at: str) -> Row:
     """The chapter beyond the thesis, with its pictures and the recordings beside its own page."""
     found = chapter(results, at)
     if found["folder"] is not None:
+        teach(found["changes"], templates)
         drawn_figures = shown_figures(found["folder"])
         found["figures"] = {figure["name"]: figure for figure in drawn_figures}
         found["kept"] = kept((), drawn_figures, ())

@@ -1,8 +1,7 @@
 """What README and documentation show of the results: verdicts, words, pictures, the deviations."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from PIL import Image
@@ -14,6 +13,7 @@ from upswing.report.animation import drawn, stretches
 from upswing.report.chapter import chapter
 from upswing.report.deviations import deviations
 from upswing.report.glossary import as_sections, glossary, in_a_paragraph
+from upswing.report.lessons import EXPECTED, expected_of, lessons, read_expected
 from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.files.typed_table import read_table
@@ -21,8 +21,6 @@ from upswing.runs.results import Results
 from upswing.study.claims import Claim
 from upswing.study.errors import BadInput
 from upswing.study.paths import ROBUST, SELECTION, VERDICTS, figure
-
-Row = dict[str, Any]
 
 FIGURES = ("overview", "step-sizes")
 """The figures that the documentation shows."""
@@ -44,7 +42,6 @@ GLOSSARY = {"words": in_a_paragraph, "glossary": as_sections}
 """How the parts with explained words show them."""
 
 TABLE = "verdicts.csv"
-EXPECTED = "expected.csv"
 COLOURS = 64
 END = "<!-- end -->"
 
@@ -118,23 +115,6 @@ def verdicts_of(verdicts: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def expected_of(told: Sequence[Row]) -> list[dict[str, str]]:
-    """A row for each claim of the chapter's changes (``chapter.changes``), all of it text."""
-    return [
-        {
-            "change": change["title"],
-            "what was expected": f"{claim['claim']}: {claim['statement']}",
-            "verdict": words.verdict(claim),
-            "measured, the weakest part": claim["measure"],
-            "estimate [95 %]": words.interval(claim),
-            "threshold": claim["threshold"],
-            "n": str(claim["n"]),
-        }
-        for change in told
-        for claim in change["expected"]
-    ]
-
-
 def counted(table: pd.DataFrame) -> str:
     """How many claims got which verdict, in a sentence."""
     empirical, checks = table[table["check"] == ""], table[table["check"] != ""]
@@ -194,9 +174,10 @@ def _part(name: str, templates: Path) -> str:
     if name in GLOSSARY:
         return GLOSSARY[name](glossary(templates))
     if name == "expected":
-        expected = pd.read_csv(templates / EXPECTED, dtype=str, keep_default_na=False)
+        expected = read_expected(templates)
         said = expected["verdict"].value_counts(sort=False).items()
         counts = ", ".join(f"{number} {verdict}" for verdict, number in said)
-        return f"Of {len(expected)} expectations: {counts}.\n\n{markdown(expected)}"
+        taught = "\n".join(f"- **{change}.** {one}" for change, one in lessons(templates).items())
+        return f"Of {len(expected)} expectations: {counts}.\n\n{markdown(expected)}\n\n{taught}"
     table = pd.read_csv(templates / TABLE, dtype=str, keep_default_na=False)
     return f"{counted(table)}\n\n{markdown(in_short(table) if name == 'verdicts' else table)}"

@@ -21,15 +21,14 @@ from upswing.report.animation import (
     stretches,
 )
 from upswing.report.chapter import chapter
+from upswing.report.lessons import EXPECTED, expected_of, lessons
 from upswing.report.readme import (
     ANIMATION,
-    EXPECTED,
     FIGURES,
     PARTS,
     PICTURES,
     README,
     TABLE,
-    expected_of,
     renewed,
     verdicts_of,
     write_readme,
@@ -118,6 +117,10 @@ def test_findings_have_a_row_for_each_expectation():
     text = (ROOT / FINDINGS).read_text("utf-8")
     for claim, one in expected.items():
         assert f"| {claim}: {one.statement} |" in text
+    changes = {one.title for one in load(ROOT / "config/beyond.yaml").experiments}
+    assert set(lessons(TEMPLATES)) == changes
+    for lesson in lessons(TEMPLATES).values():
+        assert lesson in text
 
 
 def test_the_animation_is_that_of_the_study_where_it_was_run():
