@@ -7,6 +7,8 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 CORES ?= all
+# One more than processors: tests wait for browsers, viewers and Snakemake.
+TESTERS = $(shell expr $$(getconf _NPROCESSORS_ONLN) + 1)
 # A target is about the study in CONFIG, and its results in RESULTS, or where CONFIG says (results, where none is given).
 CONFIG ?= config/config.yaml
 # The project's other studies go below RESULTS, and not into it, where the main one is.
@@ -132,11 +134,11 @@ clean-orphans: install ## List runs that the study, as it last ran, no longer ha
 
 .PHONY: test
 test: install ## Run the tests
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m "not heavy"
+	@$(BIN)/python -m pytest --numprocesses $(TESTERS) --dist loadfile --no-loadscope-reorder -m "not heavy"
 
 .PHONY: test-heavy
 test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed, sweeps, studies beyond the thesis
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder -m heavy
+	@$(BIN)/python -m pytest --numprocesses $(TESTERS) --dist loadfile --no-loadscope-reorder -m heavy
 
 .PHONY: test-all
 test-all: test test-heavy ## Run all tests, those that take long too

@@ -121,7 +121,8 @@ those who train compute with them."""
 
 def missing(job, modules, code):
     """What a job imports and its code lacks; but no file that a job writes depends on the command line."""
-    own = {name for name in modules if name != "upswing" and not name.startswith("upswing.cli")}
+    of_cli = ("upswing", "upswing.study", f"{STUDY}places")
+    own = {name for name in modules if name not in of_cli and not name.startswith("upswing.cli")}
     rule = job.partition(" ")[0]
     return own - code.modules - NO_MATTER.get(rule, set()) - (set() if rule == "train" else OPTIONS)
 

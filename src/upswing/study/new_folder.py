@@ -88,7 +88,7 @@ def write_folder(folder: Path, templates: bool = False) -> list[str]:
         beside.replace(folder)
     finally:
         shutil.rmtree(beside, ignore_errors=True)
-    return sorted({"Snakefile", "README.md", *(name.split("/")[0] for name in copied)})
+    return sorted({"Snakefile", "README.md", *(Path(name).parts[0] for name in copied)})
 
 
 def without_make(text: str) -> str:

@@ -6,8 +6,6 @@ from pathlib import Path
 import pytest
 
 from tests.paths import ROOT
-from upswing.cli import options
-from upswing.study import project_files
 from upswing.study.claims import load_claims
 from upswing.study.errors import BadInput
 from upswing.study.project_files import (
@@ -31,11 +29,6 @@ def test_the_links_lead_to_the_projects_own_files():
         pytest.skip("not a git checkout")
     for name in listed:
         assert (PROJECT / name).samefile(ROOT / name), name
-
-
-def test_the_command_line_looks_where_the_workflow_does():
-    for name in ("CONFIG", "SWEEPS", "TEMPLATES"):
-        assert getattr(options, name) == getattr(project_files, name)
 
 
 def test_a_file_is_the_working_folders_or_else_comes_along(tmp_path, monkeypatch):
