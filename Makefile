@@ -137,7 +137,7 @@ test: install ## Run the tests
 	@$(BIN)/python -m pytest --numprocesses $(TESTERS) --dist loadfile --no-loadscope-reorder -m "not heavy"
 
 .PHONY: test-heavy
-test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed, sweeps, studies beyond the thesis
+test-heavy: install ## Run the tests that take long: a real Slurm, jobs killed, sweeps, installations, windows, fuzz
 	@$(BIN)/python -m pytest --numprocesses $(TESTERS) --dist loadfile --no-loadscope-reorder -m heavy
 
 .PHONY: test-all

@@ -16,6 +16,8 @@ import pytest
 from tests.paths import ROOT
 from tests.portability.indices import line, made_up_index, made_up_wheel
 
+pytestmark = pytest.mark.heavy  # it makes environments
+
 FOR_A_GPU = "import gpulib\nbuild = 'gpu'\n"
 SAID = "This torch needs gigabytes of GPU libraries"
 

@@ -17,6 +17,8 @@ from tests.portability import lock, page
 from tests.portability.lock import GPU, LOCK, SLURM, UV, Pin, pins, uv, with_cpu_builds
 from tests.portability.wheels import PLATFORMS, PYTHONS, File, Fit, Line, fitting, lines, wanted
 
+pytestmark = pytest.mark.heavy  # it asks an index about every line of the locks
+
 LOCKS = (LOCK, SLURM, GPU)
 LINUX, ARM, MACOS = PLATFORMS
 FOR_UV = {

@@ -12,6 +12,8 @@ from upswing.runs.files.trajectory import read_metadata
 from upswing.runs.train import train
 from upswing.study.spec import parse
 
+pytestmark = pytest.mark.heavy  # it runs a study again and again
+
 TRAIN, CELLS = "train_seeds_0_to_1", 5
 FOLLOWS = {"tables", "verdicts", "history", "comparison", "figure", "viewer", "report"}
 RUN = "balancing/table/alpha-1/seed-0"

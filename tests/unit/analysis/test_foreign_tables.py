@@ -48,6 +48,8 @@ from upswing.study.paths import (
 )
 from upswing.study.sweeps import groups, load_sweeps
 
+pytestmark = pytest.mark.heavy  # it tries every kind of foreign table in every place
+
 RUN = "runs/balancing/table/alpha-0.1/seed-1"
 WINDOWS, TRAJECTORY = f"{RUN}.windows.parquet", f"{RUN}.trajectory.parquet"
 EXAMPLES = {"text": "a", "number": 0.5, "whole": 1, "truth": True, "texts": ["a"]}

@@ -13,6 +13,7 @@ from tests.unit.display import Windows, display, why_not
 from tests.unit.recordings.test_browsing import DRIVERS
 
 pytestmark = [
+    pytest.mark.heavy,  # it opens windows
     pytest.mark.skipif(bool(why_not()), reason=why_not()),
     pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver: install mesa-vulkan-drivers"),
 ]

@@ -24,6 +24,8 @@ from upswing.study.spec import parse
 from upswing.study.sweeps import groups, load_sweeps
 from upswing.study.yaml_file import read_yaml
 
+pytestmark = pytest.mark.heavy  # it tries thousands of malformed files
+
 MANY = settings(
     max_examples=1_000, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True
 )
