@@ -88,7 +88,7 @@ def _line(error: Exception, path: Path) -> int | None:
     lines = []
     traceback = error.__traceback__
     while traceback is not None:
-        if traceback.tb_frame.f_code.co_filename == str(path):
+        if Path(traceback.tb_frame.f_code.co_filename).resolve() == path.resolve():
             lines.append(traceback.tb_lineno)
         traceback = traceback.tb_next
     return lines[-1] if lines else None
