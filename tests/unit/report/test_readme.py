@@ -12,6 +12,7 @@ import pytest
 from tests.conftest import CHROMIUM
 from tests.paths import ROOT
 from upswing.analysis.aggregate import write_tables
+from upswing.cli.main import main
 from upswing.figures import draw
 from upswing.report.animation import (
     LEARNED,
@@ -40,7 +41,7 @@ from upswing.study.claims import load_claims
 from upswing.study.config import load, validated
 from upswing.study.errors import BadInput
 from upswing.study.matrix import Matrix
-from upswing.study.paths import VERDICTS
+from upswing.study.paths import ROBUST, VERDICTS
 from upswing.study.physical import PendulumOptions
 
 TEMPLATES = ROOT / "report"
@@ -149,6 +150,23 @@ def test_everything_is_renewed_from_results(results, tmp_path):
     (tmp_path / FINDINGS).unlink()
     with pytest.raises(BadInput, match=r"findings\.md: there is no such page"):
         write_readme(results.folder, tmp_path / "report", tmp_path / README)
+
+
+def test_sweeps_of_older_code_are_not_shipped_as_those_of_today(results, tmp_path, capsys):
+    for name in FIGURES:
+        draw(name, results)
+    for name in ("report", "docs"):
+        shutil.copytree(ROOT / name, tmp_path / name)
+    shutil.copy(ROOT / README, tmp_path)
+    folder = tmp_path / "results"
+    shutil.copytree(results.folder, folder, ignore=shutil.ignore_patterns("runs"))
+    (folder / ROBUST).touch()  # it says nothing of what it was made from
+    shipped = tmp_path / "report/readings.json"
+    before = shipped.read_bytes()
+    words = ["--templates", str(tmp_path / "report"), "--readme", str(tmp_path / README)]
+    assert main(["readme", str(folder), *words]) == 0
+    assert shipped.read_bytes() == before
+    assert f"{shipped} stays as it is: the code that judges changed" in capsys.readouterr().out
 
 
 def rotations(picture, number):

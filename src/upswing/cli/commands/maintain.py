@@ -61,10 +61,13 @@ def readme(
     sweeps: Sweeps = SWEEPS,
 ) -> None:
     """Renew what the README shows of the results."""
+    from upswing.analysis.robustness.outdated import outdated
+    from upswing.analysis.robustness.tables import SHIPPED
     from upswing.report.readme import write_readme
     from upswing.runs.study_file import read_study
     from upswing.study import jobs
     from upswing.study.errors import BadInput
+    from upswing.study.paths import ROBUST
     from upswing.study.registration import of
     from upswing.study.sweeps import load_sweeps
 
@@ -74,9 +77,15 @@ def readme(
     if study.claims or study.title or not study.judges:
         raise BadInput([f"{folder}: is of a study of one's own; the README shows the thesis's"])
     judged, swept = claims_of(study, claims), load_sweeps(sweeps, study)
+    old = outdated(folder, swept, judged, study).changed if (folder / ROBUST).exists() else []
+    if old:
+        print(
+            f"{templates / SHIPPED} stays as it is: {', '.join(old)} changed since the sweeps were run; "
+            "`make readings` runs them again"
+        )
     codes = {f"code of {name}": jobs.sweep(one, study).fingerprint for name, one in swept.items()}
     made_from = {"sweeps": of(study, judged, swept).sweeps, **codes}
-    write_readme(folder, templates, readme, judged, made_from)
+    write_readme(folder, templates, readme, None if old else judged, made_from)
 
 
 @panel.subcommand("site")
