@@ -1,7 +1,8 @@
 """What each change beyond the thesis teaches: ``lessons.yaml``, beside what they were written from.
 
 A lesson is words about results. So it is shown only where these came out as they had when it was
-written, which ``expected.csv`` keeps.
+written: the verdicts, which ``expected.csv`` keeps, and how many runs of each cell succeeded, which
+``changes.csv`` keeps.
 """
 
 from collections.abc import Sequence
@@ -15,7 +16,7 @@ from upswing.study.yaml_file import read_yaml
 
 Row = dict[str, Any]
 
-LESSONS, EXPECTED = "lessons.yaml", "expected.csv"
+LESSONS, EXPECTED, SUCCEEDED = "lessons.yaml", "expected.csv", "changes.csv"
 
 
 def expected_of(changes: Sequence[Row]) -> list[dict[str, str]]:
@@ -35,9 +36,22 @@ def expected_of(changes: Sequence[Row]) -> list[dict[str, str]]:
     ]
 
 
-def read_expected(templates: Path) -> pd.DataFrame:
-    """What came out of each expectation when the lessons were written."""
-    return pd.read_csv(templates / EXPECTED, dtype=str, keep_default_na=False)
+def succeeded_of(changes: Sequence[Row]) -> list[dict[str, str]]:
+    """A row for each cell of the chapter's changes: how many of its runs succeed."""
+    return [
+        {
+            "change": change["title"],
+            "cell": cell["cell"],
+            "succeed": f"{cell['successes']} of {cell['runs']}",
+        }
+        for change in changes
+        for cell in change["cells"]
+    ]
+
+
+def read_told(templates: Path, name: str) -> pd.DataFrame:
+    """What came out when the lessons were written: ``EXPECTED`` or ``SUCCEEDED``."""
+    return pd.read_csv(templates / name, dtype=str, keep_default_na=False)
 
 
 def lessons(templates: Path) -> dict[str, str]:
@@ -49,8 +63,14 @@ def lessons(templates: Path) -> dict[str, str]:
 def teach(changes: Sequence[Row], templates: Path) -> None:
     """Give each change its lesson (``teaches``), empty where it is told of other results."""
     told = lessons(templates)
-    then = read_expected(templates).to_dict("records") if told else []
+    then = {
+        name: read_told(templates, name).to_dict("records") if told else []
+        for name in (EXPECTED, SUCCEEDED)
+    }
     for change in changes:
-        now = expected_of([change])
-        same = now == [row for row in then if row["change"] == change["title"]]
-        change["teaches"] = told.get(change["title"], "") if now and same else ""
+        now = {EXPECTED: expected_of([change]), SUCCEEDED: succeeded_of([change])}
+        same = all(
+            now[name] == [row for row in rows if row["change"] == change["title"]]
+            for name, rows in then.items()
+        )
+        change["teaches"] = told.get(change["title"], "") if now[EXPECTED] and same else ""

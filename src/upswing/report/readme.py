@@ -13,7 +13,14 @@ from upswing.report.animation import drawn, stretches
 from upswing.report.chapter import chapter
 from upswing.report.deviations import deviations
 from upswing.report.glossary import as_sections, glossary, in_a_paragraph
-from upswing.report.lessons import EXPECTED, expected_of, lessons, read_expected
+from upswing.report.lessons import (
+    EXPECTED,
+    SUCCEEDED,
+    expected_of,
+    lessons,
+    read_told,
+    succeeded_of,
+)
 from upswing.runs.files.atomic import written
 from upswing.runs.files.tables import read_verdicts
 from upswing.runs.files.typed_table import read_table
@@ -74,6 +81,8 @@ def write_readme(
     if expected := expected_of(told["changes"] if told["folder"] else ()):
         with written(templates / EXPECTED) as beside:
             pd.DataFrame(expected).to_csv(beside, index=False)
+        with written(templates / SUCCEEDED) as beside:
+            pd.DataFrame(succeeded_of(told["changes"])).to_csv(beside, index=False)
     if claims is not None and (results / ROBUST).exists():
         write_shipped(results, templates, claims, made_from or {})
     if (results / SELECTION).exists():
@@ -174,7 +183,7 @@ def _part(name: str, templates: Path) -> str:
     if name in GLOSSARY:
         return GLOSSARY[name](glossary(templates))
     if name == "expected":
-        expected = read_expected(templates)
+        expected = read_told(templates, EXPECTED)
         said = expected["verdict"].value_counts(sort=False).items()
         counts = ", ".join(f"{number} {verdict}" for verdict, number in said)
         taught = "\n".join(f"- **{change}.** {one}" for change, one in lessons(templates).items())

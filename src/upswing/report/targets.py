@@ -62,8 +62,8 @@ OF_THE_CHAPTER = (BOUND, MAPS, SETTLING, PREDICTION, PREDICTION_LIMITS, CHANGES)
 """The tables of a study of changes."""
 
 TEMPLATES = (
-    "*.j2", "*.css", "*.js", "*.yaml", "*.json", "exploratory.csv", "expected.csv", "parts/*",
-    "drawings/*",
+    "*.j2", "*.css", "*.js", "*.yaml", "*.json", "exploratory.csv", "expected.csv", "changes.csv",
+    "parts/*", "drawings/*",
 )  # fmt: skip
 
 
